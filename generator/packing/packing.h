@@ -1,0 +1,48 @@
+// Dense packings of disks that do not overlap: minimisation of the overlap of disks that start at random.
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "generator/sample/scene.h"
+#include "generator/sample/vec.h"
+
+namespace lamella {
+
+struct Disk {
+  Vec2 centre = Vec2::Zero();  // [m]
+  double radius = 0;           // [m]
+};
+
+/// Disks in a box. Between walls every disk lies inside the box; in a periodic box disks may cross its sides, and the images
+/// at whole box lengths belong to the packing.
+struct Packing {
+  Box box;
+  bool periodic = false;
+  std::vector<Disk> disks;
+  double fraction = 0;             // area of the disks over area of the box [1]
+  std::vector<std::string> notes;  // what the user should see
+};
+
+using PackingProgress = std::function<void(double done, const std::string& what)>;
+
+/// The disks that a scene asks for: read from packing.file, or drawn and packed. Tissues and rings start here.
+Packing make_packing(const Scene& scene, const PackingProgress& progress = {});
+
+/// Packs disks of these radii at packing.fraction, in an order and a place of its own choice: disk k has the k-th radius.
+/// Width and height [m]: radii are scaled so that they fill the fraction; if one is 0 it follows from the other and the
+/// radii as given, if both are 0 the box is a square. The box starts at the origin. packing.jammed compresses until the
+/// packing carries pressure, and returns it where the pressure vanishes; with the box given it is the radii that grow.
+/// No two disks overlap, in the arithmetic of `largest_overlap`. Throws SceneError when the fraction cannot be met.
+Packing pack(const PackingScene& packing, const std::vector<double>& radii, double width, double height,
+             std::uint64_t seed, const PackingProgress& progress = {});
+
+/// Largest overlap of any two disks, or of a disk with a wall, by a search of its own that shares nothing with the packer [m].
+/// Negative: the smallest gap.
+double largest_overlap(const Packing& packing);
+
+/// Area of the disks over area of the box [1].
+double area_fraction(const std::vector<Disk>& disks, const Box& box);
+
+}  // namespace lamella

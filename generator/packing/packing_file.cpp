@@ -1,0 +1,159 @@
+#include "generator/packing/packing_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <optional>
+
+#include "generator/sample/errors.h"
+
+namespace lamella {
+namespace {
+
+std::vector<std::string> split(const std::string& line) {
+  constexpr const char* kBlank = " \t\r";
+  std::vector<std::string> words;
+  const bool by_blanks = line.find_first_of(",;") == std::string::npos;
+  for (std::size_t begin = 0; begin <= line.size();) {
+    const std::size_t end = std::min(line.find_first_of(by_blanks ? " \t\r" : ",;", begin), line.size());
+    std::string word = line.substr(begin, end - begin);
+    const std::size_t first = word.find_first_not_of(kBlank);
+    word = first == std::string::npos ? "" : word.substr(first, word.find_last_not_of(kBlank) - first + 1);
+    if (!word.empty() || !by_blanks) words.push_back(word);
+    begin = end + 1;
+  }
+  return words;
+}
+
+std::optional<double> number(const std::string& word) {
+  char* end = nullptr;
+  const double value = std::strtod(word.c_str(), &end);
+  if (word.empty() || *end != '\0') return {};
+  return value;
+}
+
+/// Collects faults as `file:line: ...`; a file of another kind entirely need not be listed line by line.
+class Faults {
+ public:
+  explicit Faults(std::string file) : file_(std::move(file)) {}
+  void add(int line, const std::string& what) {
+    if (++count_ <= kShown) faults_.push_back(fmt::format("{}:{}: {}", file_, line, what));
+  }
+  void add(const std::string& what) { ++count_, faults_.push_back(fmt::format("{}: {}", file_, what)); }
+  bool none() const { return count_ == 0; }
+  void throw_if_any() {
+    if (count_ == 0) return;
+    if (count_ > kShown) faults_.push_back(fmt::format("{}: and {} more lines with faults", file_, count_ - kShown));
+    throw SceneError(std::move(faults_));
+  }
+
+ private:
+  static constexpr int kShown = 50;
+  std::string file_;
+  std::vector<std::string> faults_;
+  int count_ = 0;
+};
+
+std::optional<Disk> parse_disk(const std::string& line, int line_number, Faults& faults) {
+  const auto words = split(line);
+  if (words.size() != 3) {
+    faults.add(line_number, fmt::format("{} columns: must be three, x, y and r", words.size()));
+    return {};
+  }
+  std::array<double, 3> values{};
+  for (int k = 0; k < 3; ++k) {
+    const auto value = number(words[k]);
+    const char* name = k == 0 ? "x" : k == 1 ? "y" : "r";
+    // Beyond this, squared distances lose the radii or overflow.
+    constexpr double kHuge = 1e100;
+    if (!value)
+      faults.add(line_number, fmt::format("{} = \"{}\" is not a number", name, words[k]));
+    else if (!std::isfinite(*value) || std::abs(*value) > kHuge)
+      faults.add(line_number, fmt::format("{} = {}: must be finite, at most 1e100", name, words[k]));
+    else if (k == 2 && !(*value > 0))
+      faults.add(line_number, fmt::format("r = {}: a radius must be positive", words[k]));
+    else {
+      values[k] = *value;
+      continue;
+    }
+    return {};
+  }
+  return Disk{{values[0], values[1]}, values[2]};
+}
+
+/// The first line may name its columns. Two numbers out of three are a broken line, not a header.
+bool is_header(const std::string& line) {
+  const auto words = split(line);
+  return std::none_of(words.begin(), words.end(), [](const std::string& word) { return number(word).has_value(); });
+}
+
+}  // namespace
+
+Packing read_packing(const std::filesystem::path& path, const Box* box, const std::string& duplicates) {
+  std::ifstream in(path);
+  if (!in || std::filesystem::is_directory(path))
+    throw DataError(fmt::format("{}: cannot be read; it should be a packing, x,y,r a line", path.string()));
+  Packing packing;
+  Faults faults(path.string());
+  std::map<std::array<double, 3>, int> line_of;
+  bool first = true;
+  int left_out = 0;
+  std::string line;
+  for (int line_number = 1; std::getline(in, line); ++line_number) {
+    line = line.substr(0, line.find('#'));
+    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+    const bool header = first && is_header(line);
+    first = false;
+    if (header) continue;
+    const auto disk = parse_disk(line, line_number, faults);
+    if (!disk) continue;
+    const auto [same, is_new] = line_of.insert({{disk->centre.x(), disk->centre.y(), disk->radius}, line_number});
+    if (!is_new && duplicates == "keep_first") {
+      ++left_out;
+      continue;
+    }
+    if (!is_new)
+      faults.add(
+          line_number,
+          fmt::format("the same disk as in line {}: remove it, or set sample.packing.duplicates = \"keep_first\"",
+                      same->second));
+    if (box && !box->contains(disk->centre))
+      faults.add(line_number,
+                 fmt::format("the centre ({:.9g}, {:.9g}) lies outside the box [{:.9g}, {:.9g}] x [{:.9g}, {:.9g}]",
+                             disk->centre.x(), disk->centre.y(), box->lo.x(), box->hi.x(), box->lo.y(), box->hi.y()));
+    packing.disks.push_back(*disk);
+  }
+  if (packing.disks.empty() && faults.none()) faults.add("holds no disk: must have at least one line x,y,r");
+  faults.throw_if_any();
+
+  if (box) {
+    packing.box = *box;
+  } else {
+    packing.box = {packing.disks[0].centre, packing.disks[0].centre};
+    for (const Disk& disk : packing.disks) {
+      packing.box.lo = packing.box.lo.cwiseMin(disk.centre - Vec2::Constant(disk.radius));
+      packing.box.hi = packing.box.hi.cwiseMax(disk.centre + Vec2::Constant(disk.radius));
+    }
+  }
+  packing.fraction = area_fraction(packing.disks, packing.box);
+  if (left_out > 0)
+    packing.notes.push_back(
+        fmt::format("{}: {} disks left out that occur earlier in the file", path.string(), left_out));
+  return packing;
+}
+
+void write_packing(const std::filesystem::path& path, const Packing& packing) {
+  std::ofstream out(path);
+  out << "x,y,r\n";
+  for (const Disk& disk : packing.disks)
+    out << fmt::format("{:.17g},{:.17g},{:.17g}\n", disk.centre.x(), disk.centre.y(), disk.radius);
+  out.flush();
+  if (!out) throw DataError(fmt::format("{}: cannot be written", path.string()));
+}
+
+}  // namespace lamella

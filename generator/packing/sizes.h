@@ -1,0 +1,19 @@
+// Radii of the disks: drawn from a distribution, or read from a file.
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "generator/sample/scene.h"
+
+namespace lamella {
+
+/// `count` radii in random order. They are stratified: one draw from each of `count` equally probable classes, so that mean
+/// and coefficient of variation are those asked for to about 1 / count, not to 1 / sqrt(count). Same seed, same radii, on
+/// every machine. `for_paths` resolves sizes.file. Throws SceneError for what the distribution cannot give.
+std::vector<double> draw_radii(const SizesScene& sizes, int count, std::uint64_t seed, const Scene& for_paths);
+
+/// Radii of a file, one a line, `#` starts a comment. Throws SceneError with all faults, DataError if it cannot be read.
+std::vector<double> read_radii(const std::filesystem::path& path);
+
+}  // namespace lamella

@@ -1,0 +1,703 @@
+// The table of all parameters: key, where it goes, unit, range, sentence. Defaults are those of scene.h.
+#include "generator/sample/scene_rows.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace lamella {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr Range kPositive{0, kInfinity, true};
+constexpr Range kNotNegative{0, kInfinity};
+constexpr Range kFraction{0, 1};
+constexpr Range kPositiveFraction{0, 1, true};
+constexpr Range kInsideFraction{0, 1, true, true};
+
+Range at_least(double low) { return {low, kInfinity}; }
+Range between(double low, double high) { return {low, high}; }
+
+}  // namespace
+
+bool Range::contains(double value) const {
+  return std::isfinite(value) && (low_excluded ? value > low : value >= low) &&
+         (high_excluded ? value < high : value <= high);
+}
+
+std::string Range::text(const std::string& unit) const {
+  const std::string tail = unit.empty() || unit == "1" ? "" : " " + unit;
+  const std::string above = fmt::format("{} {:g}", low_excluded ? ">" : ">=", low);
+  const std::string below = fmt::format("{} {:g}", high_excluded ? "<" : "<=", high);
+  if (low == -kInfinity && high == kInfinity) return "";
+  if (high == kInfinity) return above + tail;
+  if (low == -kInfinity) return below + tail;
+  if (!low_excluded && !high_excluded) return fmt::format("{:g} to {:g}{}", low, high, tail);
+  return above + " and " + below + tail;
+}
+
+template <>
+const std::vector<Row<Scene>>& rows() {
+  static const std::vector<Row<Scene>> list{
+      {.key = "title", .member = &Scene::title, .sentence = "Shown on pictures and in the report.", .fallback = "none"},
+      {.key = "seed",
+       .member = &Scene::seed,
+       .range = kNotNegative,
+       .sentence = "Of all random numbers: same scene and seed, same sample, bit for bit."},
+  };
+  return list;
+}
+
+template <>
+const std::vector<Row<SampleScene>>& rows() {
+  using S = SampleScene;
+  static const std::vector<Row<S>> list{
+      {.key = "kind",
+       .member = &S::kind,
+       .sentence =
+           "What is made: a tissue of Laguerre-Voronoi cells, rings on the disks of a packing, a regular honeycomb, "
+           "a tissue of given polygons, or only the shapes listed.",
+       .choices = {"tissue", "rings", "honeycomb", "polygons", "shapes"},
+       .required = true},
+      {.key = "width",
+       .member = &S::width,
+       .unit = "m",
+       .range = kPositive,
+       .sentence = "Of the box.",
+       .fallback = "from the sizes, or from the shapes and polygons"},
+      {.key = "height",
+       .member = &S::height,
+       .unit = "m",
+       .range = kPositive,
+       .sentence = "Of the box.",
+       .fallback = "from the sizes, or from the shapes and polygons"},
+      {.key = "ring_nodes",
+       .member = &S::ring_nodes,
+       .range = at_least(3),
+       .sentence = "rings: mass points of each ring."},
+      {.key = "columns",
+       .member = &S::columns,
+       .range = at_least(1),
+       .sentence = "honeycomb: hexagons along x.",
+       .fallback = "required for a honeycomb"},
+      {.key = "rows",
+       .member = &S::rows,
+       .range = at_least(1),
+       .sentence = "honeycomb: hexagons along y.",
+       .fallback = "required for a honeycomb"},
+      {.key = "side",
+       .member = &S::side,
+       .unit = "m",
+       .range = kPositive,
+       .sentence = "honeycomb: side of the hexagons.",
+       .fallback = "required for a honeycomb"},
+      {.key = "orientation",
+       .member = &S::orientation,
+       .sentence = "honeycomb: pointy has walls along y, flat has walls along x.",
+       .choices = {"pointy", "flat"}},
+      {.key = "file",
+       .member = &S::file,
+       .sentence = "polygons: text file with `x y cell` a line, consecutive points of a cell.",
+       .fallback = "required for polygons"},
+      {.key = "outlines",
+       .member = &S::outlines,
+       .sentence = "polygons: walls coincide (shared), or each cell has its own centre line (separate).",
+       .choices = {"shared", "separate"}},
+      {.key = "facing_tolerance",
+       .member = &S::facing_tolerance,
+       .unit = "m",
+       .range = kPositive,
+       .sentence = "polygons, separate: largest distance of centre lines that are linked.",
+       .fallback = "1.1 times the sum of the two radii"},
+      {.key = "scale",
+       .member = &S::scale,
+       .unit = "m",
+       .range = kPositive,
+       .sentence = "polygons: length of one unit of the file."},
+  };
+  return list;
+}
+
+template <>
+const std::vector<Row<SizesScene>>& rows() {
+  using S = SizesScene;
+  static const std::vector<Row<S>> list{
+      {.key = "distribution",
+       .member = &S::distribution,
+       .sentence = "Of the radii of the disks.",
+       .choices = {"uniform", "normal", "lognormal", "gamma", "bidisperse", "file"}},
+      {.key = "mean",
+       .member = &S::mean,
+       .unit = "m",
+       .range = kPositive,
+       .sentence = "Mean radius; only ratios matter when the box is given.",
+       .fallback = "required unless the box is given"},
+      {.key = "cv", .member = &S::cv, .unit = "1", .range = between(0, 1), .sentence = "Standard deviation over mean."},
+      {.key = "ratio",
+       .member = &S::ratio,
+       .unit = "1",
+       .range = between(1, 100),
+       .sentence = "bidisperse: large over small radius."},
+      {.key = "share",
+       .member = &S::share,
+       .unit = "1",
+       .range = kFraction,
+       .sentence = "bidisperse: share of large disks by number."},
+      {.key = "file", .member = &S::file, .sentence = "file: one radius [m] a line.", .fallback = "required for file"},
+  };
+  return list;
+}
+
+template <>
+const std::vector<Row<PackingScene>>& rows() {
+  using S = PackingScene;
+  static const std::vector<Row<S>> list{
+      {.key = "count",
+       .member = &S::count,
+       .range = between(1, 1e7),
+       .sentence = "Number of disks, one for each cell."},
+      {.key = "fraction",
+       .member = &S::fraction,
+       .unit = "1",
+       .range = {0.01, 0.9},
+       .sentence = "Area of the disks over area of the box."},
+      {.key = "boundary",
+       .member = &S::boundary,
+       .sentence = "Disks lie between walls, or repeat beyond the box.",
+       .choices = {"walls", "periodic"}},
+      {.key = "jammed", .member = &S::jammed, .sentence = "Compress until jammed, whatever the fraction."},
+      {.key = "file",
+       .member = &S::file,
+       .sentence = "CSV `x,y,r` of a packing from elsewhere.",
+       .fallback = "a packing is made"},
+      {.key = "duplicates",
+       .member = &S::duplicates,
+       .sentence = "What to do with disks of one centre.",
+       .choices = {"error", "keep_first"}},
+  };
+  return list;
+}
+
+template <>
+const std::vector<Row<WallsScene>>& rows() {
+  using S = WallsScene;
+  static const std::vector<Row<S>> list{
+      {.key = "spacing",
+       .member = &S::spacing,
+       .unit = "m",
+       .range = kPositive,
+       .sentence = "Asked distance of mass points along a wall.",
+       .fallback = "this or segments is required for a tissue, honeycomb or polygons"},
+      {.key = "segments",
+       .member = &S::segments,
+       .range = between(1, 10000),
+       .sentence = "Segments on a wall of mean length, instead of spacing.",
+       .fallback = "this or spacing is required for a tissue, honeycomb or polygons"},
+      {.key = "weld",
+       .member = &S::weld,
+       .unit = "1",
+       .range = between(0, 0.5),
+       .sentence = "Edges shorter than this fraction of the mean edge are welded to a point."},
+      {.key = "links",
+       .member = &S::links,
+       .sentence = "Which facing points are linked: all, those at the ends of walls, or none.",
+       .choices = {"all", "ends", "none"}},
+      {.key = "gap",
+       .member = &S::gap,
+       .unit = "m",
+       .range = kNotNegative,
+       .sentence = "Distance of facing outlines: facing points lie at twice the radius plus this."},
+  };
+  return list;
+}
+
+template <>
+const std::vector<Row<NotchScene>>& rows() {
+  using S = NotchScene;
+  static const std::vector<Row<S>> list{
+      {.key = "line",
+       .member = &S::line,
+       .unit = "m",
+       .sentence = "Polyline [[x, y], ...]: links that it crosses are absent.",
+       .fallback = "none"},
+      {.key = "polygon",
+       .member = &S::polygon,
+       .unit = "m",
+       .sentence = "Polygon [[x, y], ...]: cells whose centre lies inside are absent.",
+       .fallback = "none"},
+  };
+  return list;
+}
+
+template <>
+const std::vector<Row<ShapeScene>>& rows() {
+  using S = ShapeScene;
+  static const std::vector<Row<S>> list{
+      {.key = "kind",
+       .member = &S::kind,
+       .sentence = "chain and plate: open, from `from` to `to`; box: open, holds things; ring; polygon.",
+       .choices = {"chain", "plate", "box", "ring", "polygon"},
+       .required = true},
+      {.key = "group", .member = &S::group, .sentence = "Group whose parameters it takes."},
+      {.key = "from",
+       .member = &S::from,
+       .unit = "m",
+       .sentence = "chain, plate: first end; box: a corner.",
+       .fallback = "required there"},
+      {.key = "to",
+       .member = &S::to,
+       .unit = "m",
+       .sentence = "chain, plate: last end; box: opposite corner.",
+       .fallback = "required there"},
+      {.key = "centre", .member = &S::centre, .unit = "m", .sentence = "ring: centre."},
+      {.key = "size",
+       .member = &S::size,
+       .unit = "m",
+       .range = kPositive,
+       .sentence = "ring: radius of its vertices.",
+       .fallback = "required for a ring"},
+      {.key = "segments",
+       .member = &S::segments,
+       .range = between(1, 1e6),
+       .sentence = "Of a chain, plate, ring, of each side of a box or polygon.",
+       .fallback = "required but for polygons (1)"},
+      {.key = "rotation", .member = &S::rotation, .unit = "rad", .sentence = "ring: angle of its first vertex."},
+      {.key = "points",
+       .member = &S::points,
+       .unit = "m",
+       .sentence = "polygon: [[x, y], ...], the first not repeated.",
+       .fallback = "required for a polygon"},
+      {.key = "open", .member = &S::open, .sentence = "polygon: an open chain, not a shell."},
+      {.key = "clamp",
+       .member = &S::clamp,
+       .sentence = "chain: a ghost segment beyond an end, which makes it a clamp when held.",
+       .choices = {"none", "start", "end", "both"}},
+      {.key = "clamp_hinge",
+       .member = &S::clamp_hinge,
+       .sentence = "chain: half a hinge at the clamp (second order), or a full one (first order, for comparison).",
+       .choices = {"half", "full"}},
+  };
+  return list;
+}
+
+template <>
+const std::vector<Row<CellScene>>& rows() {
+  using S = CellScene;
+  static const std::vector<Row<S>> list{
+      {.key = "thickness",
+       .member = &S::thickness,
+       .unit = "m",
+       .range = kPositive,
+       .sentence = "Wall thickness h, of which stiffness and mass are made.",
+       .fallback = "required, unless rigidities, mass_per_length and radius are given"},
+      {.key = "depth", .member = &S::depth, .unit = "m", .range = kPositive, .sentence = "Out-of-plane depth s."},
+      {.key = "radius",
+       .member = &S::radius,
+       .unit = "m",
+       .range = kPositive,
+       .sentence = "Minkowski radius r: distance of the wall's outline from its centre line.",
+       .fallback = "half the thickness"},
+      {.key = "plane",
+       .member = &S::plane,
+       .sentence = "Plane strain or plane stress.",
+       .choices = {"strain", "stress"}},
+      {.key = "young",
+       .member = &S::young,
+       .unit = "Pa",
+       .range = kPositive,
+       .sentence = "Young's modulus E of the wall.",
+       .fallback = "required, or both rigidities"},
+      {.key = "poisson",
+       .member = &S::poisson,
+       .unit = "1",
+       .range = {-1, 0.5, true},
+       .sentence = "Poisson's ratio nu of the wall."},
+      {.key = "axial_rigidity",
+       .member = &S::axial_rigidity,
+       .unit = "N",
+       .range = kPositive,
+       .sentence = "EA, instead of E, h and s; together with bending_rigidity.",
+       .fallback = "E' h s"},
+      {.key = "bending_rigidity",
+       .member = &S::bending_rigidity,
+       .unit = "N m2",
+       .range = kNotNegative,
+       .sentence = "EI, instead of E, h and s; 0 makes strings without bending.",
+       .fallback = "E' s h3 / 12"},
+      {.key = "density",
+       .member = &S::density,
+       .unit = "kg/m3",
+       .range = kPositive,
+       .sentence = "Of the wall.",
+       .fallback = "required, or mass_per_length"},
+      {.key = "mass_per_length",
+       .member = &S::mass_per_length,
+       .unit = "kg/m",
+       .range = kPositive,
+       .sentence = "Of the wall in its whole depth, instead of density.",
+       .fallback = "density h s"},
+      {.key = "yield_stress",
+       .member = &S::yield_stress,
+       .unit = "Pa",
+       .range = kPositive,
+       .sentence = "sigma_Y of bars and hinges; in plane strain they flow at 2 sigma_Y / sqrt 3.",
+       .fallback = "elastic"},
+      {.key = "yield_force",
+       .member = &S::yield_force,
+       .unit = "N",
+       .range = kPositive,
+       .sentence = "Axial force at which bars flow, instead of yield_stress.",
+       .fallback = "from yield_stress"},
+      {.key = "yield_moment",
+       .member = &S::yield_moment,
+       .unit = "N m",
+       .range = kPositive,
+       .sentence = "Moment at which hinges flow, instead of yield_stress.",
+       .fallback = "from yield_stress"},
+      {.key = "bar_dashpot",
+       .member = &S::bar_dashpot,
+       .unit = "N s",
+       .range = kNotNegative,
+       .sentence = "c of an axial dashpot: force = c times strain rate of the segment."},
+      {.key = "hinge_dashpot",
+       .member = &S::hinge_dashpot,
+       .unit = "N m2 s",
+       .range = kNotNegative,
+       .sentence = "c of a hinge dashpot: moment = c times rate of curvature."},
+  };
+  return list;
+}
+
+template <>
+const std::vector<Row<CoreScene>>& rows() {
+  using S = CoreScene;
+  static const std::vector<Row<S>> list{
+      {.key = "modulus",
+       .member = &S::modulus,
+       .unit = "Pa",
+       .range = kNotNegative,
+       .sentence = "K: pressure = p0 - K (A / A0 - 1).",
+       .fallback = "this or stiffness_ratio is required when undrained"},
+      {.key = "stiffness_ratio",
+       .member = &S::stiffness_ratio,
+       .unit = "1",
+       .range = kNotNegative,
+       .sentence = "eta = K / (E' h / 2 R), instead of the modulus; R is that of a circle of the rest area.",
+       .fallback = "from modulus"},
+      {.key = "pressure",
+       .member = &S::pressure,
+       .unit = "Pa",
+       .sentence = "p0: pressure above that outside, at the rest area."},
+      {.key = "drained", .member = &S::drained, .sentence = "The pressure does not depend on the area."},
+      {.key = "pressure_history",
+       .member = &S::pressure_history,
+       .unit = "s",
+       .sentence = "drained: [[time, pressure], ...], linear between, instead of a constant pressure.",
+       .fallback = "none",
+       .unit_of_second = "Pa"},
+      {.key = "density",
+       .member = &S::density,
+       .unit = "kg/m3",
+       .range = kNotNegative,
+       .sentence = "Of the core; its mass is shared out to the nodes."},
+  };
+  return list;
+}
+
+template <>
+const std::vector<Row<LinkScene>>& rows() {
+  using S = LinkScene;
+  static const std::vector<Row<S>> list{
+      {.key = "per",
+       .member = &S::per,
+       .sentence = "Stiffness and strength are per length of wall, or of each link whatever its length.",
+       .choices = {"length", "link"}},
+      {.key = "normal_stiffness",
+       .member = &S::normal_stiffness,
+       .unit = "N/m2",
+       .range = kPositive,
+       .sentence = "k_n.",
+       .fallback = "",
+       .unit_per_link = "N/m",
+       .required = true},
+      {.key = "tangential_stiffness",
+       .member = &S::tangential_stiffness,
+       .unit = "N/m2",
+       .range = kNotNegative,
+       .sentence = "k_t.",
+       .unit_per_link = "N/m"},
+      {.key = "normal_strength",
+       .member = &S::normal_strength,
+       .unit = "N/m",
+       .range = kPositive,
+       .sentence = "f_n0 in opening, a positive number.",
+       .fallback = "never breaks",
+       .unit_per_link = "N"},
+      {.key = "tangential_strength",
+       .member = &S::tangential_strength,
+       .unit = "N/m",
+       .range = kPositive,
+       .sentence = "f_t0, given together with normal_strength.",
+       .fallback = "never breaks",
+       .unit_per_link = "N"},
+      {.key = "exponent",
+       .member = &S::exponent,
+       .unit = "1",
+       .range = between(1, 100),
+       .sentence = "alpha: a link breaks where f_n / f_n0 + |f_t / f_t0|^alpha = 1."},
+  };
+  return list;
+}
+
+template <>
+const std::vector<Row<ContactScene>>& rows() {
+  using S = ContactScene;
+  static const std::vector<Row<S>> list{
+      {.key = "normal_stiffness",
+       .member = &S::normal_stiffness,
+       .unit = "N/m2",
+       .range = kPositive,
+       .sentence = "Penalty per length of wall.",
+       .fallback = "that of the links"},
+      {.key = "friction", .member = &S::friction, .unit = "1", .range = between(0, 10), .sentence = "Coulomb's mu."},
+      {.key = "tangential_ratio",
+       .member = &S::tangential_ratio,
+       .unit = "1",
+       .range = kPositiveFraction,
+       .sentence = "Stiffness of the friction spring over that of the contact; used with friction."},
+      {.key = "damping",
+       .member = &S::damping,
+       .unit = "1",
+       .range = kFraction,
+       .sentence = "Normal dashpot, as a fraction of critical damping."},
+      {.key = "skin",
+       .member = &S::skin,
+       .unit = "m",
+       .range = kPositive,
+       .sentence = "By how much the search looks further than contact, so that its list lasts.",
+       .fallback = "chosen from the segments"},
+  };
+  return list;
+}
+
+template <>
+const std::vector<Row<GravityScene>>& rows() {
+  static const std::vector<Row<GravityScene>> list{{.key = "acceleration",
+                                                    .member = &GravityScene::acceleration,
+                                                    .unit = "m/s2",
+                                                    .sentence = "[x, y].",
+                                                    .required = true}};
+  return list;
+}
+
+template <>
+const std::vector<Row<DragScene>>& rows() {
+  static const std::vector<Row<DragScene>> list{
+      {.key = "rate",
+       .member = &DragScene::rate,
+       .unit = "1/s",
+       .range = kNotNegative,
+       .sentence = "Viscous drag of every node: force = -rate times momentum.",
+       .required = true}};
+  return list;
+}
+
+template <>
+const std::vector<Row<LoadScene>>& rows() {
+  using S = LoadScene;
+  static const std::vector<Row<S>> list{
+      {.key = "name", .member = &S::name, .sentence = "By which later stages change or remove it.", .required = true},
+      {.key = "velocity_x",
+       .member = &S::velocity_x,
+       .unit = "m/s",
+       .sentence = "Prescribed; 0 holds.",
+       .fallback = "free"},
+      {.key = "velocity_y",
+       .member = &S::velocity_y,
+       .unit = "m/s",
+       .sentence = "Prescribed; 0 holds.",
+       .fallback = "free"},
+      {.key = "force_x",
+       .member = &S::force_x,
+       .unit = "N",
+       .sentence = "Total, shared equally by the nodes.",
+       .fallback = "none"},
+      {.key = "force_y",
+       .member = &S::force_y,
+       .unit = "N",
+       .sentence = "Total, shared equally by the nodes.",
+       .fallback = "none"},
+      {.key = "line_force_x",
+       .member = &S::line_force_x,
+       .unit = "N/m",
+       .sentence = "Per length of wall.",
+       .fallback = "none"},
+      {.key = "line_force_y",
+       .member = &S::line_force_y,
+       .unit = "N/m",
+       .sentence = "Per length of wall.",
+       .fallback = "none"},
+      {.key = "ramp",
+       .member = &S::ramp,
+       .unit = "s",
+       .range = kNotNegative,
+       .sentence = "Time to reach the full value, smoothly."},
+  };
+  return list;
+}
+
+template <>
+const std::vector<Row<Selection>>& rows() {
+  using S = Selection;
+  static const std::vector<Row<S>> list{
+      {.key = "side",
+       .member = &S::side,
+       .sentence = "Nodes of all walls cut by that side of the box.",
+       .fallback = "none",
+       .choices = {"left", "right", "bottom", "top"}},
+      {.key = "box", .member = &S::box, .unit = "m", .sentence = "[x0, y0, x1, y1]: nodes inside.", .fallback = "none"},
+      {.key = "group", .member = &S::group, .sentence = "All nodes of the group's cells.", .fallback = "none"},
+      {.key = "cells",
+       .member = &S::cells,
+       .range = kNotNegative,
+       .sentence = "All nodes of these cells.",
+       .fallback = "none"},
+      {.key = "nodes", .member = &S::nodes, .range = kNotNegative, .sentence = "These nodes.", .fallback = "none"},
+      {.key = "end",
+       .member = &S::end,
+       .sentence = "That end of the open chains of `group`, or of all; a clamp end is the last two nodes.",
+       .fallback = "none",
+       .choices = {"start", "end", "clamp_start", "clamp_end", "middle"}},
+  };
+  return list;
+}
+
+template <>
+const std::vector<Row<LoadingScene>>& rows() {
+  using S = LoadingScene;
+  static const std::vector<Row<S>> list{
+      {.key = "kind", .member = &S::kind, .sentence = "Of the test.", .choices = {"tension", "compression", "shear"}},
+      {.key = "axis",
+       .member = &S::axis,
+       .sentence = "From grip to grip: x, left and right; y, bottom and top.",
+       .choices = {"x", "y"}},
+      {.key = "strain_rate",
+       .member = &S::strain_rate,
+       .unit = "1/s",
+       .range = kPositive,
+       .sentence = "Of the gauge length.",
+       .fallback = "this or speed is required"},
+      {.key = "speed",
+       .member = &S::speed,
+       .unit = "m/s",
+       .range = kPositive,
+       .sentence = "Of the moving grip, instead of strain_rate.",
+       .fallback = "from strain_rate"},
+      {.key = "both", .member = &S::both, .sentence = "Both grips move apart, each at half the speed."},
+      {.key = "normal_only",
+       .member = &S::normal_only,
+       .sentence = "Grips hold only the component along the axis; not for shear."},
+      {.key = "ramp_strain",
+       .member = &S::ramp_strain,
+       .unit = "1",
+       .range = kNotNegative,
+       .sentence = "The rate grows from 0 over this strain, smoothly."},
+      {.key = "strain", .member = &S::strain, .unit = "1", .range = kPositive, .sentence = "Where loading ends."},
+      {.key = "unload", .member = &S::unload, .sentence = "Then back to strain 0 at the same rate."},
+      {.key = "step",
+       .member = &S::step,
+       .unit = "1",
+       .range = kPositive,
+       .sentence = "Load by this strain, hold until at rest, and so on.",
+       .fallback = "continuous"},
+      {.key = "rest_tolerance",
+       .member = &S::rest_tolerance,
+       .unit = "1",
+       .range = kInsideFraction,
+       .sentence = "Relative unbalanced force that counts as rest; used with step."},
+  };
+  return list;
+}
+
+template <>
+const std::vector<Row<StopScene>>& rows() {
+  using S = StopScene;
+  static const std::vector<Row<S>> list{
+      {.key = "time",
+       .member = &S::time,
+       .unit = "s",
+       .range = kPositive,
+       .sentence = "After this time of the stage.",
+       .fallback = "never"},
+      {.key = "stress_drop",
+       .member = &S::stress_drop,
+       .unit = "1",
+       .range = kInsideFraction,
+       .sentence = "When the stress falls below this fraction of its peak so far.",
+       .fallback = "never"},
+      {.key = "separated",
+       .member = &S::separated,
+       .sentence = "When no path of shells and intact links joins the grips."},
+      {.key = "at_rest",
+       .member = &S::at_rest,
+       .unit = "1",
+       .range = kInsideFraction,
+       .sentence = "When the relative unbalanced force falls below this.",
+       .fallback = "never"},
+  };
+  return list;
+}
+
+template <>
+const std::vector<Row<RunScene>>& rows() {
+  using S = RunScene;
+  static const std::vector<Row<S>> list{
+      {.key = "stepper", .member = &S::stepper, .sentence = "How time is stepped.", .choices = {"velocity_verlet"}},
+      {.key = "step_fraction",
+       .member = &S::step_fraction,
+       .unit = "1",
+       .range = kPositiveFraction,
+       .sentence = "Of the stable time step, which is found from the present stiffness."},
+      {.key = "time_step",
+       .member = &S::time_step,
+       .unit = "s",
+       .range = kPositive,
+       .sentence = "A fixed one, instead of step_fraction; refused where it is not stable.",
+       .fallback = "from step_fraction"},
+      {.key = "threads",
+       .member = &S::threads,
+       .range = between(1, 256),
+       .sentence = "The result does not depend on it."},
+  };
+  return list;
+}
+
+template <>
+const std::vector<Row<OutputScene>>& rows() {
+  using S = OutputScene;
+  static const std::vector<Row<S>> list{
+      {.key = "frames",
+       .member = &S::frames,
+       .range = between(1, 100000),
+       .sentence = "Number of frames, about equally spaced in time."},
+      {.key = "response",
+       .member = &S::response,
+       .range = between(1, 1e6),
+       .sentence = "Rows of the response curve, likewise."},
+  };
+  return list;
+}
+
+template <>
+const std::vector<Row<StageScene>>& rows() {
+  static const std::vector<Row<StageScene>> list{
+      {.key = "name", .member = &StageScene::name, .sentence = "Of the stage.", .required = true},
+      {.key = "from",
+       .member = &StageScene::from,
+       .sentence = "Stage whose last frame it continues.",
+       .fallback = "the previous one"},
+  };
+  return list;
+}
+
+}  // namespace lamella

@@ -1,0 +1,28 @@
+// The plane: points, vectors and boxes. Everything that is small and dense is Eigen's.
+#pragma once
+#include <Eigen/Core>
+
+namespace lamella {
+
+using Vec2 = Eigen::Vector2d;
+
+/// Axis-aligned rectangle [m].
+struct Box {
+  Vec2 lo = Vec2::Zero();
+  Vec2 hi = Vec2::Zero();
+
+  Vec2 size() const { return hi - lo; }
+  double area() const { return (hi.x() - lo.x()) * (hi.y() - lo.y()); }
+  bool contains(const Vec2& p) const { return (p.array() >= lo.array()).all() && (p.array() <= hi.array()).all(); }
+};
+
+/// z component of the cross product; positive when b lies to the left of a.
+inline double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+/// v turned by +90 degrees.
+inline Vec2 left_of(const Vec2& v) { return {-v.y(), v.x()}; }
+
+/// v turned by -90 degrees. The outward normal of a wall, since closed cells run counter-clockwise.
+inline Vec2 right_of(const Vec2& v) { return {v.y(), -v.x()}; }
+
+}  // namespace lamella

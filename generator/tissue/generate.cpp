@@ -1,0 +1,155 @@
+// The generator's front door: which scene makes which sample.
+#include "generator/generate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "generator/packing/laguerre.h"
+#include "generator/packing/packing.h"
+#include "generator/packing/weld.h"
+#include "generator/sample/errors.h"
+#include "generator/tissue/lattice.h"
+#include "generator/tissue/notch.h"
+#include "generator/tissue/polygon_file.h"
+#include "generator/tissue/polygons.h"
+#include "generator/tissue/shapes.h"
+#include "generator/tissue/walls.h"
+
+namespace lamella {
+namespace {
+
+constexpr const char* kGroup = "cells";  // of the cells of a tissue
+
+using Progress = std::function<void(double, const std::string&)>;
+
+Tessellation tessellate(const Packing& packing, const PackingScene& scene, Notes& notes) {
+  LaguerreOptions options;
+  if (scene.duplicates == "keep_first") options = {Duplicates::kKeepFirst, Hidden::kReport};
+  Tessellation tessellation = tessellate(packing.disks, packing.box, options);
+  if (!tessellation.hidden.empty()) {
+    std::vector<std::string> names;
+    for (const Index site : tessellation.hidden) names.push_back(fmt::format("site {}", site));
+    notes.push_back(fmt::format("{} sites have no cell: {}", names.size(), listed(names)));
+  }
+  return tessellation;
+}
+
+/// Inset, links and notch: what tiles, hexagons and imported polygons have in common.
+Sample make_tissue(Mosaic& mosaic, const Scene& scene, Notes& notes) {
+  if (scene.sample.notch && !scene.sample.notch->polygon.empty()) {
+    const Index removed = remove_cells_inside(mosaic, scene.sample.notch->polygon);
+    if (removed == 0) throw SceneError("sample.notch.polygon: no cell has its centre inside");
+    if (mosaic.cells.empty()) throw SceneError("sample.notch.polygon: removes all cells");
+    notes.push_back(fmt::format("the notch removes {} cells", removed));
+  }
+  order_by_rows(mosaic);
+  const double radius = scene.stages.front().cell(kGroup).outline_radius();
+  return make_tissue(mosaic, scene.sample.walls, radius, kGroup, notes);
+}
+
+Sample make_packed_tissue(const Scene& scene, Notes& notes, const Progress& progress) {
+  const Packing packing = make_packing(scene, [&](double done, const std::string& what) {
+    if (progress) progress(0.7 * done, what);
+  });
+  notes.insert(notes.end(), packing.notes.begin(), packing.notes.end());
+  if (progress) progress(0.7, "tessellation");
+  Tessellation tessellation = tessellate(packing, scene.sample.packing, notes);
+  // Cocircular sites leave edges without length, which no wall can be made of: those are welded whatever is asked.
+  const double share = std::max(scene.sample.walls.weld, 1e-9);
+  weld_short_edges(tessellation, share * mean_edge_length(tessellation), &notes);
+  if (progress) progress(0.8, "walls");
+  Mosaic mosaic = mosaic_of(tessellation);
+  return make_tissue(mosaic, scene, notes);
+}
+
+Sample make_packed_rings(const Scene& scene, Notes& notes, const Progress& progress) {
+  const Packing packing = make_packing(scene, progress);
+  notes.insert(notes.end(), packing.notes.begin(), packing.notes.end());
+  std::vector<double> areas(packing.disks.size(), 0);
+  if (packing.periodic) {
+    notes.push_back("the packing is periodic, the sample is not: rings cross the sides of the box");
+    // A disk across a side has no whole tile in the box: gaps are shared out in proportion.
+    for (std::size_t i = 0; i < areas.size(); ++i)
+      areas[i] = std::numbers::pi * packing.disks[i].radius * packing.disks[i].radius / packing.fraction;
+  } else {
+    const Tessellation tessellation = tessellate(packing, scene.sample.packing, notes);
+    for (const Tile& tile : tessellation.tiles) areas[tile.site] = tile_area(tessellation, tile);
+  }
+  return make_rings(packing, scene.sample.ring_nodes, scene.stages.front().cell(kGroup).outline_radius(), kGroup,
+                    areas);
+}
+
+Sample make_imported_tissue(const Scene& scene, Notes& notes) {
+  const auto path = scene.resolve(scene.sample.file);
+  const auto polygons = read_polygons(path, scene.sample.scale, notes);
+  if (scene.sample.outlines == "separate") {
+    if (scene.sample.notch && !scene.sample.notch->polygon.empty())
+      throw SceneError(
+          "sample.notch.polygon: only with outlines = \"shared\"; leave the cells out of the file instead");
+    return make_separate_tissue(polygons, scene.sample, path.string(),
+                                scene.stages.front().cell(kGroup).outline_radius(), kGroup, notes);
+  }
+  Mosaic mosaic = share_walls(polygons, scene.sample, path.string());
+  return make_tissue(mosaic, scene, notes);
+}
+
+/// A box for shapes that were given none: what encloses their outlines.
+Box enclosing_box(const Sample& sample) {
+  Box box{sample.x.front(), sample.x.front()};
+  for (Index c = 0; c < sample.cells(); ++c)
+    for (Index k = sample.cell_begin[c]; k < sample.cell_begin[c + 1]; ++k) {
+      const Vec2 reach = Vec2::Constant(sample.radius[c]);
+      box.lo = box.lo.cwiseMin(sample.x[k] - reach);
+      box.hi = box.hi.cwiseMax(sample.x[k] + reach);
+    }
+  return box;
+}
+
+void check(const Sample& sample, const std::string& kind) {
+  auto violations = check_sample(sample);
+  if (violations.empty()) return;
+  violations.insert(violations.begin(), fmt::format("sample: the {} that the scene asks for is not sound", kind));
+  throw SceneError(violations);
+}
+
+}  // namespace
+
+Sample generate(const Scene& scene, Notes& notes, const std::function<void(double, const std::string&)>& progress) {
+  const SampleScene& asked = scene.sample;
+  Sample sample;
+  if (asked.kind == "tissue") {
+    sample = make_packed_tissue(scene, notes, progress);
+  } else if (asked.kind == "rings") {
+    sample = make_packed_rings(scene, notes, progress);
+  } else if (asked.kind == "honeycomb") {
+    Mosaic mosaic = make_honeycomb(asked);
+    sample = make_tissue(mosaic, scene, notes);
+  } else if (asked.kind == "polygons") {
+    sample = make_imported_tissue(scene, notes);
+  } else if (asked.kind == "shapes") {
+    if (asked.shapes.empty()) throw SceneError("sample: kind = \"shapes\" needs at least one [[sample.shapes]]");
+    sample.cell_begin.push_back(0);
+  } else {
+    throw SceneError(
+        fmt::format("sample.kind: unknown kind \"{}\"; tissue, rings, honeycomb, polygons or shapes", asked.kind));
+  }
+  if (asked.notch && !asked.notch->line.empty()) cut_links(asked.notch->line, sample, notes);
+  for (const ShapeScene& shape : asked.shapes)
+    add_shape(
+        shape, [&](const std::string& group) { return scene.stages.front().cell(group).outline_radius(); }, sample);
+  if (asked.kind == "shapes") {
+    sample.box = enclosing_box(sample);
+    if (asked.width > 0 && asked.height > 0) sample.box = {Vec2::Zero(), Vec2(asked.width, asked.height)};
+  }
+  sample.scene_text = scene.text;
+  sample.seed = scene.seed;
+  if (progress) progress(0.95, "check");
+  check(sample, asked.kind);
+  if (progress) progress(1, "done");
+  return sample;
+}
+
+}  // namespace lamella

@@ -1,0 +1,54 @@
+// A mosaic: polygons that share walls, before anything is made of them. Tessellations, honeycombs and imported tissues
+// all become one, and walls.h turns it into shells.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "generator/sample/sample.h"
+
+namespace lamella {
+
+struct MosaicCell {
+  std::vector<Index> vertex;       // counter-clockwise, into Mosaic::vertices
+  std::vector<std::uint8_t> side;  // Side bits of the edge that starts at the vertex of the same place
+  std::string name;                // what the user calls it: "site 12"
+};
+
+/// Two cells share the edge (u, v) when one has it from u to v and the other from v to u: shared walls are known by
+/// their vertices' ids and never by comparing coordinates. An edge that nobody shares is free.
+struct Mosaic {
+  Box box;
+  std::vector<Vec2> vertices;
+  std::vector<MosaicCell> cells;
+};
+
+/// Where an edge is: the k-th of a cell. cell == -1: nowhere.
+struct EdgePlace {
+  Index cell = -1;
+  Index edge = -1;
+};
+
+/// For every cell and edge, the same edge seen from the other cell, or cell == -1 for a free edge. Throws
+/// SceneError naming both cells when two cells have the same edge in the same direction: they overlap.
+std::vector<std::vector<EdgePlace>> opposite_edges(const Mosaic& mosaic);
+
+std::vector<Vec2> polygon_of(const Mosaic& mosaic, const MosaicCell& cell);
+
+/// Area-weighted centre of a polygon.
+Vec2 polygon_centre(const std::vector<Vec2>& points);
+
+/// Orders the cells by rows of their centres, each from left to right, so that neighbours are near in memory.
+void order_by_rows(Mosaic& mosaic);
+
+/// Gives free edges the bits of the box sides that they look at from within 0.6 mean cell diameters: the rough sides of
+/// a tissue that does not fill its box.
+void mark_rough_sides(Mosaic& mosaic);
+
+/// Removes the cells whose centre lies inside the polygon; their neighbours' walls there become free. Returns how many.
+Index remove_cells_inside(Mosaic& mosaic, const std::vector<Vec2>& polygon);
+
+/// Whether the point lies inside the closed polygon (either orientation).
+bool is_inside(const std::vector<Vec2>& polygon, const Vec2& point);
+
+}  // namespace lamella

@@ -1,0 +1,308 @@
+#include "generator/tissue/walls.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "generator/sample/errors.h"
+#include "generator/tissue/inset.h"
+
+namespace lamella {
+namespace {
+
+/// Below this fraction of the spacing two sides do not face each other in any useful sense: no link.
+constexpr double kLeastOverlap = 0.05;
+
+/// One edge of a cell, moved inwards, and the part of it that faces another cell. Positions along it are measured from
+/// its first vertex.
+struct InsetSide {
+  Vec2 start = Vec2::Zero(), along = Vec2::Zero();
+  double from = 0, to = 0;   // between the inset corners
+  bool present = false;      // has not vanished
+  double low = 0, high = 0;  // facing part; low > high: none
+  Index first_pair = -1;     // of this edge, in the order of the cell of lower index
+  Index pairs = 0;
+  bool faces() const { return pairs > 0; }
+};
+
+using Sides = std::vector<std::vector<InsetSide>>;
+
+Sides inset_sides(const Mosaic& mosaic, double distance, Notes& notes) {
+  Sides sides(mosaic.cells.size());
+  std::vector<std::string> vanished, split, lost;
+  double thinnest = 1e300;
+  for (std::size_t c = 0; c < mosaic.cells.size(); ++c) {
+    const auto polygon = polygon_of(mosaic, mosaic.cells[c]);
+    const Inset inset = inset_polygon(polygon, distance);
+    if (inset.outcome == Inset::Outcome::vanished) {
+      vanished.push_back(mosaic.cells[c].name);
+      thinnest = std::min(thinnest, vanishing_distance(polygon));
+    }
+    if (inset.outcome == Inset::Outcome::split) split.push_back(mosaic.cells[c].name);
+    auto& of_cell = sides[c];
+    of_cell.resize(polygon.size());
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+      of_cell[k].start = polygon[k];
+      of_cell[k].along = (polygon[(k + 1) % polygon.size()] - polygon[k]).normalized();
+    }
+    for (const InsetEdge& edge : inset.edges) {
+      of_cell[edge.edge].from = edge.from;
+      of_cell[edge.edge].to = edge.to;
+      of_cell[edge.edge].present = true;
+    }
+    if (inset.outcome == Inset::Outcome::whole && inset.edges.size() < polygon.size())
+      for (std::size_t k = 0; k < polygon.size(); ++k)
+        if (!of_cell[k].present) lost.push_back(fmt::format("edge {} of {}", k, mosaic.cells[c].name));
+  }
+  std::vector<std::string> faults;
+  if (!vanished.empty())
+    faults.push_back(
+        fmt::format("{} vanish when walls move in by radius + gap / 2 = {:.4g} m; at most {:.4g} m would "
+                    "leave every cell",
+                    listed(vanished), distance, thinnest));
+  if (!split.empty())
+    faults.push_back(
+        fmt::format("{}: concave, and narrower somewhere than twice radius + gap / 2 = {:.4g} m: choose a "
+                    "smaller radius",
+                    listed(split), distance));
+  if (!faults.empty()) throw SceneError(faults);
+  if (!lost.empty()) notes.push_back(fmt::format("{} edges vanish by the inset: {}", lost.size(), listed(lost)));
+  return sides;
+}
+
+/// Facing part of the edge `s` of the cell of lower index and of its other side `o`, in the positions of `s`.
+void overlap(const InsetSide& s, const InsetSide& o, double& low, double& high) {
+  const double length = (o.start - s.start).dot(s.along);  // o runs the other way, from the end of s
+  low = std::max(s.from, length - o.to);
+  high = std::min(s.to, length - o.from);
+}
+
+double mean_overlap(const Sides& sides, const std::vector<std::vector<EdgePlace>>& opposite) {
+  double sum = 0;
+  Index count = 0;
+  for (std::size_t c = 0; c < sides.size(); ++c) {
+    for (std::size_t k = 0; k < sides[c].size(); ++k) {
+      const EdgePlace there = opposite[c][k];
+      if (there.cell < static_cast<Index>(c) || !sides[c][k].present) continue;
+      if (!sides[there.cell][there.edge].present) continue;
+      double low, high;
+      overlap(sides[c][k], sides[there.cell][there.edge], low, high);
+      if (high > low) {
+        sum += high - low;
+        ++count;
+      }
+    }
+  }
+  if (count > 0) return sum / count;
+  for (const auto& cell : sides)
+    for (const InsetSide& side : cell)
+      if (side.present) {
+        sum += side.to - side.from;
+        ++count;
+      }
+  return sum / std::max<Index>(1, count);
+}
+
+/// A spacing in the wrong unit would ask for more mass points than indices or memory can hold.
+void refuse_too_many(const Sides& sides, double spacing) {
+  double length = 0;
+  for (const auto& cell : sides)
+    for (const InsetSide& side : cell) length += side.present ? side.to - side.from : 0;
+  constexpr double most = 2e8;
+  if (!(length / spacing < most))
+    throw SceneError(
+        fmt::format("sample.walls.spacing: {:.4g} m on {:.4g} m of walls makes {:.3g} mass points; at most "
+                    "{:.0g} are possible, so at least {:.3g} m",
+                    spacing, length, length / spacing, most, length / most));
+}
+
+/// Places the pairs of one wall piece. Returns how many.
+Index add_pairs(double length, double spacing, Bonding& bonding) {
+  if (length < kLeastOverlap * spacing) return 0;
+  if (length < kMergeFraction * spacing) {
+    bonding.pairs.push_back({length, length, true});
+    return 1;
+  }
+  const auto segments = std::max<Index>(1, static_cast<Index>(std::lround(length / spacing)));
+  const double step = length / segments;
+  for (Index k = 0; k <= segments; ++k)
+    bonding.pairs.push_back({k == 0 || k == segments ? step / 2 : step, step, true});
+  return segments + 1;
+}
+
+/// Keeps links only where the scene asks for them. Links at the ends only share the wall between the two.
+void choose_links(const std::string& links, Bonding& bonding) {
+  if (links == "all") return;
+  for (const FacingWall& wall : bonding.walls) {
+    double total = 0;
+    for (Index p = wall.first; p < wall.first + wall.count; ++p) {
+      total += bonding.pairs[p].length;
+      bonding.pairs[p].linked = false;
+    }
+    if (links == "none") continue;
+    const Index last = wall.first + wall.count - 1;
+    const double share = wall.count > 1 ? total / 2 : total;
+    for (const Index p : {wall.first, last}) bonding.pairs[p] = {share, total, true};
+  }
+}
+
+/// Finds the facing part of every shared edge and gives it pairs. Consecutive edges between the same two cells are
+/// one wall.
+void face_sides(const Mosaic& mosaic, const std::vector<std::vector<EdgePlace>>& opposite, Sides& sides,
+                Bonding& bonding, Notes& notes) {
+  std::vector<std::string> one_sided, apart, single;
+  for (std::size_t c = 0; c < sides.size(); ++c) {
+    const std::size_t count = sides[c].size();
+    const auto cell = static_cast<Index>(c);
+    // Begin where the neighbour changes, so that a wall of several edges is not cut in two.
+    std::size_t start = 0;
+    while (start < count && opposite[c][start].cell == opposite[c][(start + count - 1) % count].cell) ++start;
+    Index before = -1;
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t k = (start + i) % count;
+      const EdgePlace there = opposite[c][k];
+      if (there.cell <= cell) {
+        before = -1;
+        continue;
+      }
+      InsetSide& here = sides[c][k];
+      InsetSide& across = sides[there.cell][there.edge];
+      const std::string name = mosaic.cells[c].name + " - " + mosaic.cells[there.cell].name;
+      if (!here.present || !across.present) {
+        if (here.present || across.present) one_sided.push_back(name);
+        continue;
+      }
+      double low, high;
+      overlap(here, across, low, high);
+      const auto first = static_cast<Index>(bonding.pairs.size());
+      const Index pairs = high > low ? add_pairs(high - low, bonding.spacing, bonding) : 0;
+      if (pairs == 0) {
+        apart.push_back(name);
+        continue;
+      }
+      if (pairs == 1) single.push_back(name);
+      const double length = (across.start - here.start).dot(here.along);
+      here.first_pair = across.first_pair = first;
+      here.pairs = across.pairs = pairs;
+      here.low = low;
+      here.high = high;
+      across.low = length - high;
+      across.high = length - low;
+      if (before == there.cell) {
+        bonding.walls.back().length += length;
+        bonding.walls.back().count += pairs;
+      } else {
+        bonding.walls.push_back({cell, there.cell, length, here.along, first, pairs});
+        before = there.cell;
+      }
+    }
+  }
+  if (!one_sided.empty())
+    notes.push_back(fmt::format("{} walls have one side only, the other vanishes by the inset: {}", one_sided.size(),
+                                listed(one_sided)));
+  if (!apart.empty())
+    notes.push_back(fmt::format("{} walls get no link, their two sides do not face each other over {} spacings: {}",
+                                apart.size(), kLeastOverlap, listed(apart)));
+  if (!single.empty())
+    notes.push_back(
+        fmt::format("{} walls get a single link, their two sides face each other over less than {} spacings: {}",
+                    single.size(), kMergeFraction, listed(single)));
+}
+
+class OutlineWriter {
+ public:
+  OutlineWriter(const InsetSide& side, double distance, double spacing, std::uint8_t bits, Outline& outline)
+      : side_(side),
+        normal_(left_of(side.along)),
+        distance_(distance),
+        spacing_(spacing),
+        bits_(bits),
+        outline_(outline) {}
+
+  void corner(std::uint8_t bits_before) {
+    outline_.nodes.push_back(
+        {at(side_.from), OutlineNode::Kind::corner, -1, static_cast<std::uint8_t>(bits_ | bits_before)});
+  }
+  /// Evenly spaced points strictly between two positions.
+  void fill(double from, double to) {
+    const auto segments = std::lround((to - from) / spacing_);
+    for (long k = 1; k < segments; ++k)
+      outline_.nodes.push_back({at(from + (to - from) * static_cast<double>(k) / static_cast<double>(segments)),
+                                OutlineNode::Kind::fill, -1, bits_});
+  }
+  void matched(double position, Index pair) {
+    outline_.nodes.push_back({at(position), OutlineNode::Kind::matched, pair, bits_});
+  }
+
+ private:
+  Vec2 at(double position) const { return side_.start + position * side_.along + distance_ * normal_; }
+
+  const InsetSide& side_;
+  Vec2 normal_;
+  double distance_, spacing_;
+  std::uint8_t bits_;
+  Outline& outline_;
+};
+
+}  // namespace
+
+Bonding face_walls(const Mosaic& mosaic, const WallsScene& walls, double radius, Notes& notes) {
+  const double distance = radius + walls.gap / 2;
+  const auto opposite = opposite_edges(mosaic);
+  Sides sides = inset_sides(mosaic, distance, notes);
+  Bonding bonding;
+  bonding.spacing = walls.spacing > 0 ? walls.spacing : mean_overlap(sides, opposite) / std::max(1, walls.segments);
+  refuse_too_many(sides, bonding.spacing);
+  face_sides(mosaic, opposite, sides, bonding, notes);
+  choose_links(walls.links, bonding);
+
+  bonding.cells.resize(mosaic.cells.size());
+  for (std::size_t c = 0; c < mosaic.cells.size(); ++c) {
+    const MosaicCell& cell = mosaic.cells[c];
+    Outline& outline = bonding.cells[c];
+    outline.name = cell.name;
+    const auto polygon = polygon_of(mosaic, cell);
+    outline.tile_area = polygon_area(polygon.data(), static_cast<Index>(polygon.size()));
+    const std::size_t count = polygon.size();
+    std::uint8_t bits_before = 0;
+    for (std::size_t k = count; k-- > 0 && bits_before == 0;)
+      if (sides[c][k].present) {
+        bits_before = cell.side[k];
+        break;
+      }
+    for (std::size_t k = 0; k < count; ++k) {
+      const InsetSide& side = sides[c][k];
+      if (!side.present) continue;
+      OutlineWriter writer(side, distance, bonding.spacing, cell.side[k], outline);
+      writer.corner(bits_before);
+      bits_before = cell.side[k];
+      if (!side.faces()) {
+        writer.fill(side.from, side.to);
+        continue;
+      }
+      const bool first_cell = opposite[c][k].cell > static_cast<Index>(c);
+      writer.fill(side.from, side.low);
+      for (Index p = 0; p < side.pairs; ++p) {
+        const double share = side.pairs > 1 ? static_cast<double>(p) / (side.pairs - 1) : 0.5;
+        // Measured from the end that both cells measure from, so that the two points of a pair face each other exactly.
+        const double position =
+            first_cell ? side.low + share * (side.high - side.low) : side.high - (1 - share) * (side.high - side.low);
+        writer.matched(position, side.first_pair + (first_cell ? p : side.pairs - 1 - p));
+      }
+      writer.fill(side.high, side.to);
+    }
+  }
+  return bonding;
+}
+
+Sample make_tissue(const Mosaic& mosaic, const WallsScene& walls, double radius, const std::string& group,
+                   Notes& notes) {
+  Sample sample;
+  sample.box = mosaic.box;
+  const Bonding bonding = face_walls(mosaic, walls, radius, notes);
+  add_bonded_cells(bonding, radius, group, sample, notes);
+  return sample;
+}
+
+}  // namespace lamella

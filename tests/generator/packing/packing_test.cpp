@@ -1,0 +1,232 @@
+#include "generator/packing/packing.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numeric>
+
+#include "generator/packing/laguerre.h"
+#include "generator/packing/sizes.h"
+#include "generator/sample/errors.h"
+#include "random_disks.h"
+
+namespace lamella {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+PackingScene asked(const std::string& boundary, double fraction) {
+  PackingScene scene;
+  scene.boundary = boundary;
+  scene.fraction = fraction;
+  return scene;
+}
+
+std::vector<double> lognormal_radii(int count, double cv, std::uint64_t seed) {
+  SizesScene sizes;
+  sizes.cv = cv;
+  return draw_radii(sizes, count, seed, {});
+}
+
+std::vector<double> bidisperse_radii(int count) {
+  SizesScene sizes;
+  sizes.distribution = "bidisperse";
+  return draw_radii(sizes, count, 1, {});
+}
+
+/// Oracle: every pair, every image.
+double brute_force_overlap(const Packing& packing) {
+  double largest = -1e300;
+  const Vec2 size = packing.box.size();
+  for (std::size_t i = 0; i < packing.disks.size(); ++i) {
+    const Disk& a = packing.disks[i];
+    if (!packing.periodic)
+      largest = std::max({largest, a.radius - (a.centre - packing.box.lo).minCoeff(),
+                          a.radius - (packing.box.hi - a.centre).minCoeff()});
+    for (std::size_t j = 0; j < packing.disks.size(); ++j) {
+      for (int ix = -1; ix <= 1; ++ix) {
+        for (int iy = -1; iy <= 1; ++iy) {
+          if ((i == j && ix == 0 && iy == 0) || (!packing.periodic && (ix != 0 || iy != 0))) continue;
+          const Vec2 d = packing.disks[j].centre + size.cwiseProduct(Vec2(ix, iy)) - a.centre;
+          largest = std::max(largest, a.radius + packing.disks[j].radius - d.norm());
+        }
+      }
+    }
+  }
+  return largest;
+}
+
+TEST(packing, disks_fill_the_fraction_asked_for_and_do_not_overlap) {
+  for (const double cv : {0.0, 0.1, 0.3, 0.6}) {
+    for (const auto& [boundary, fraction] : {std::pair{"walls", 0.81}, std::pair{"periodic", 0.83}}) {
+      const auto radii = lognormal_radii(400, cv, 2);
+      const Packing packing = pack(asked(boundary, fraction), radii, 0, 0, 2);
+      EXPECT_NEAR(packing.fraction, fraction, 1e-12) << boundary << " CV " << cv;
+      EXPECT_LE(brute_force_overlap(packing), 0) << boundary << " CV " << cv;
+      for (std::size_t k = 0; k < radii.size(); ++k) EXPECT_EQ(packing.disks[k].radius, radii[k]);
+    }
+  }
+}
+
+TEST(packing, the_search_for_overlaps_agrees_with_trying_all_pairs) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    Packing packing;
+    packing.box = {{0, 0}, {1, 0.7}};
+    packing.disks = random_disks(60, 0.05, seed, 1, 0.7);
+    for (const bool periodic : {false, true}) {
+      packing.periodic = periodic;
+      EXPECT_NEAR(largest_overlap(packing), brute_force_overlap(packing), 1e-15);
+    }
+  }
+}
+
+TEST(packing, radii_are_scaled_to_a_given_box) {
+  const auto radii = lognormal_radii(300, 0.2, 3);
+  const Packing packing = pack(asked("walls", 0.78), radii, 3e-4, 2e-4, 3);
+  EXPECT_EQ(packing.box.size(), Vec2(3e-4, 2e-4));
+  EXPECT_NEAR(packing.fraction, 0.78, 1e-12);
+  EXPECT_LE(brute_force_overlap(packing), 0);
+  for (std::size_t k = 1; k < radii.size(); ++k)
+    EXPECT_NEAR(packing.disks[k].radius / packing.disks[0].radius, radii[k] / radii[0], 1e-12);
+}
+
+TEST(packing, a_missing_side_of_the_box_follows_from_the_disks) {
+  const auto radii = lognormal_radii(200, 0.1, 4);
+  const Packing packing = pack(asked("periodic", 0.75), radii, 20, 0, 4);
+  EXPECT_EQ(packing.box.size().x(), 20);
+  EXPECT_NEAR(packing.fraction, 0.75, 1e-12);
+  EXPECT_EQ(packing.disks[7].radius, radii[7]);
+}
+
+TEST(packing, bidisperse_disks_jam_where_the_literature_says) {
+  // 0.838 to 0.848 for 1.4:1 and N >= 1000; the exact value depends on how they are compressed.
+  PackingScene scene = asked("periodic", 0.83);
+  scene.jammed = true;
+  const auto radii = bidisperse_radii(1000);
+  const Packing packing = pack(scene, radii, 0, 0, 1);
+  EXPECT_GT(packing.fraction, 0.838);
+  EXPECT_LT(packing.fraction, 0.848);
+  EXPECT_LE(brute_force_overlap(packing), 0);
+  EXPECT_NEAR(packing.disks[0].radius, radii[0], 1e-4 * radii[0]);
+
+  // Isostatic: 2 N' - 1 contacts among the N' disks that are not rattlers. Gaps of contacts are of the order of the last
+  // shrinking, others far wider.
+  const Vec2 size = packing.box.size();
+  std::vector<std::vector<int>> touching(1000);
+  for (int i = 0; i < 1000; ++i) {
+    for (int j = 0; j < 1000; ++j) {
+      Vec2 d = packing.disks[j].centre - packing.disks[i].centre;
+      d -= (d.array() / size.array()).round().matrix().cwiseProduct(size);
+      const double reach = packing.disks[i].radius + packing.disks[j].radius;
+      if (i != j && d.norm() < reach * (1 + 2e-5)) touching[i].push_back(j);
+    }
+  }
+  std::vector<char> rattles(1000, 0);
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (int i = 0; i < 1000; ++i) {
+      const auto held = std::count_if(touching[i].begin(), touching[i].end(), [&](int j) { return !rattles[j]; });
+      if (!rattles[i] && held < 3) rattles[i] = 1, changed = true;
+    }
+  }
+  long contacts = 0, held = 0;
+  for (int i = 0; i < 1000; ++i) {
+    if (rattles[i]) continue;
+    ++held;
+    contacts += std::count_if(touching[i].begin(), touching[i].end(), [&](int j) { return !rattles[j]; });
+  }
+  EXPECT_NEAR(static_cast<double>(contacts) / 2, 2.0 * static_cast<double>(held) - 1,
+              0.01 * 2 * static_cast<double>(held));
+  EXPECT_GT(held, 900);
+}
+
+TEST(packing, jamming_in_a_given_box_grows_the_disks) {
+  PackingScene scene = asked("walls", 0.5);
+  scene.jammed = true;
+  const Packing packing = pack(scene, lognormal_radii(200, 0.2, 5), 2, 1, 5);
+  EXPECT_EQ(packing.box.size(), Vec2(2, 1));
+  EXPECT_GT(packing.fraction, 0.79);
+  EXPECT_LE(brute_force_overlap(packing), 0);
+}
+
+TEST(packing, the_same_seed_gives_the_same_packing_bit_for_bit) {
+  const auto radii = lognormal_radii(200, 0.2, 6);
+  const Packing a = pack(asked("periodic", 0.8), radii, 1, 1, 6), b = pack(asked("periodic", 0.8), radii, 1, 1, 6),
+                c = pack(asked("periodic", 0.8), radii, 1, 1, 7);
+  for (std::size_t k = 0; k < radii.size(); ++k) EXPECT_EQ(a.disks[k].centre, b.disks[k].centre);
+  EXPECT_NE(a.disks[0].centre, c.disks[0].centre);
+}
+
+TEST(packing, every_disk_lies_in_its_tile) {
+  const Packing packing = pack(asked("walls", 0.81), lognormal_radii(400, 0.3, 8), 1, 1, 8);
+  const Tessellation t = tessellate(packing.disks, packing.box);  // and none is hidden
+  EXPECT_THAT(check_tessellation(t), IsEmpty());
+  for (const Tile& tile : t.tiles) {
+    const Disk& disk = packing.disks[tile.site];
+    for (std::size_t k = 0; k < tile.vertex.size(); ++k) {
+      const Vec2 p = t.vertices[tile.vertex[k]], q = t.vertices[tile.vertex[(k + 1) % tile.vertex.size()]];
+      if ((q - p).norm() < 1e-6 * disk.radius) continue;
+      EXPECT_GE(cross(q - p, disk.centre - p) / (q - p).norm(), disk.radius * (1 - 1e-9));
+    }
+  }
+}
+
+TEST(packing, ten_thousand_disks_take_seconds) {
+  const Packing packing = pack(asked("periodic", 0.83), lognormal_radii(10000, 0.3, 9), 0, 0, 9);
+  EXPECT_NEAR(packing.fraction, 0.83, 1e-12);
+  EXPECT_LE(largest_overlap(packing), 0);
+}
+
+TEST(packing, few_disks_are_packed_too) {
+  for (const int count : {1, 2, 3, 5, 10}) {
+    for (const char* boundary : {"walls", "periodic"}) {
+      const Packing packing = pack(asked(boundary, 0.25), lognormal_radii(count, 0, 1), 0, 0, 1);
+      EXPECT_NEAR(packing.fraction, 0.25, 1e-12);
+      EXPECT_LE(brute_force_overlap(packing), 0);
+    }
+  }
+}
+
+TEST(packing, a_scene_that_names_a_file_gets_its_disks_and_is_told_of_overlaps) {
+  Scene scene;
+  const auto path = std::filesystem::path(testing::TempDir()) / "scene_packing.csv";
+  scene.sample.packing.file = path.string();
+  std::ofstream(path) << "1,1,0.5\n3,1,0.5\n";
+  EXPECT_THAT(make_packing(scene).notes, IsEmpty());
+  std::ofstream(path) << "1,1,0.5\n1.75,1,0.5\n";
+  EXPECT_THAT(make_packing(scene).notes, ElementsAre(HasSubstr("by up to 0.25 m")));
+  scene.sample.width = scene.sample.height = 1.5;
+  EXPECT_THROW(make_packing(scene), SceneError);  // a centre outside the box
+}
+
+std::string message_of(const PackingScene& scene, const std::vector<double>& radii, double width, double height) {
+  try {
+    pack(scene, radii, width, height, 1);
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(packing, what_cannot_be_packed_is_refused_with_what_can) {
+  const auto radii = lognormal_radii(100, 0.1, 1);
+  EXPECT_THAT(message_of(asked("walls", 0.95), radii, 0, 0), AllOf(HasSubstr("fraction = 0.95"), HasSubstr("0.81")));
+  EXPECT_THAT(message_of(asked("walls", -0.5), radii, 0, 0), HasSubstr("must be positive"));
+  EXPECT_THAT(message_of(asked("walls", NAN), radii, 0, 0), HasSubstr("fraction = nan"));
+  EXPECT_THAT(message_of(asked("walls", 0.88), radii, 0, 0), HasSubstr("100 disks of these sizes jam at about 0.8"));
+  EXPECT_THAT(message_of(asked("torus", 0.8), radii, 0, 0), HasSubstr("\"walls\" or \"periodic\""));
+  EXPECT_THAT(message_of(asked("walls", 0.8), radii, -1, 0), HasSubstr("sample.width = -1"));
+  EXPECT_THAT(message_of(asked("walls", 0.8), radii, 1000, 0.1), HasSubstr("does not fit the box"));
+  EXPECT_THAT(message_of(asked("walls", 0.8), {1, -1}, 0, 0), HasSubstr("positive and finite"));
+  EXPECT_THAT(message_of(asked("walls", 0.8), {}, 0, 0), HasSubstr("count = 0"));
+}
+
+}  // namespace
+}  // namespace lamella
