@@ -1,0 +1,222 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "generator/sample/errors.h"
+#include "simulator/model.h"
+
+namespace lamella {
+namespace {
+
+/// The scene's section of every cell's group.
+std::vector<const CellScene*> cell_sections(const Sample& sample, const Stage& stage) {
+  std::vector<const CellScene*> section(sample.cells());
+  for (Index c = 0; c < sample.cells(); ++c) section[c] = &stage.cell(sample.group_names[sample.group[c]]);
+  return section;
+}
+
+/// Half the segments on either side of each node [m].
+std::vector<double> tributary_lengths(const Sample& s) {
+  std::vector<double> length(s.nodes(), 0.0);
+  for (Index c = 0; c < s.cells(); ++c)
+    for (Index i = s.cell_begin[c]; i < s.cell_begin[c + 1]; ++i)
+      if (s.starts_segment(c, i)) length[i] += 0.5 * s.rest_length[i], length[s.next(c, i)] += 0.5 * s.rest_length[i];
+  return length;
+}
+
+void set_masses(Model& model, const std::vector<const CellScene*>& section, const std::vector<double>& tributary) {
+  const Sample& s = model.sample;
+  model.mass.assign(s.nodes(), 0.0);
+  model.inverse_mass.resize(s.nodes());
+  for (Index c = 0; c < s.cells(); ++c) {
+    const double line = section[c]->line_density();
+    const double core = section[c]->core && s.closed[c]
+                            ? section[c]->core->density * section[c]->depth * s.rest_area[c] / s.cell_size(c)
+                            : 0.0;
+    for (Index i = s.cell_begin[c]; i < s.cell_begin[c + 1]; ++i) {
+      model.mass[i] = line * tributary[i] + core;
+      if (!(model.mass[i] > 0) || !std::isfinite(model.mass[i]))
+        throw SceneError(
+            fmt::format("cells.density: node {} of cell {} would have mass {:.3g} kg; give a positive density "
+                        "(or mass_per_length)",
+                        i, c, model.mass[i]));
+      model.inverse_mass[i] = 1 / model.mass[i];
+    }
+  }
+}
+
+/// Values of an optional yield: infinite where absent; empty when no cell has one.
+template <class Get>
+std::vector<double> yields(const std::vector<const CellScene*>& section, Get get) {
+  std::vector<double> out;
+  for (std::size_t c = 0; c < section.size(); ++c)
+    if (const auto y = get(*section[c])) {
+      if (out.empty()) out.assign(section.size(), std::numeric_limits<double>::infinity());
+      out[c] = *y;
+    }
+  return out;
+}
+
+void add_core(Model& model, const std::vector<const CellScene*>& section) {
+  const Sample& s = model.sample;
+  CoreParameters p;
+  bool any = false;
+  for (Index c = 0; c < s.cells(); ++c) {
+    double modulus = 0, pressure = 0, depth = 0;
+    if (const auto& core = section[c]->core; core && s.closed[c]) {
+      depth = section[c]->depth;
+      pressure = core->pressure;
+      if (!core->drained) {
+        // eta = K / (E' h / 2 R), with R of the circle of the cell's rest area
+        const double radius = std::sqrt(s.rest_area[c] / M_PI);
+        modulus = core->modulus ? *core->modulus
+                                : core->stiffness_ratio.value_or(0) * section[c]->axial() / (depth * 2 * radius);
+      }
+      if (core->drained && !core->pressure_history.empty())
+        model.pressure_histories.push_back({c, &core->pressure_history});
+      any = any || modulus != 0 || pressure != 0 || !core->pressure_history.empty();
+    }
+    p.modulus.push_back(modulus), p.pressure.push_back(pressure), p.depth.push_back(depth);
+  }
+  if (any) model.core = std::make_unique<Core>(model.layout, std::move(p));
+}
+
+/// The [links] section that governs a link between two groups.
+const LinkScene& link_section(const Stage& stage, const std::string& a, const std::string& b) {
+  const auto of_a = stage.links.find(a), of_b = stage.links.find(b), none = stage.links.end();
+  if (of_a != none && of_b != none && of_a != of_b)
+    throw SceneError(fmt::format(
+        "links: [links.{}] and [links.{}] both claim the links between these groups; keep one of them", a, b));
+  if (of_a != none) return of_a->second;
+  if (of_b != none) return of_b->second;
+  return stage.links.at("links");
+}
+
+void add_links(Model& model, const Stage& stage) {
+  const Sample& s = model.sample;
+  const auto cell_of = cell_of_node(s);
+  LinkParameters p;
+  p.exponent = stage.links.at("links").exponent;
+  std::set<bool> breakable;
+  for (const Link& link : s.links) {
+    const LinkScene& scene =
+        link_section(stage, s.group_names[s.group[cell_of[link.a]]], s.group_names[s.group[cell_of[link.b]]]);
+    const bool per_length = scene.per == "length";
+    const double share = per_length ? link.length : 1.0, full = per_length ? link.spacing : 1.0;
+    p.normal_stiffness.push_back(share * scene.normal_stiffness);
+    p.tangential_stiffness.push_back(share * scene.tangential_stiffness);
+    breakable.insert(scene.normal_strength.has_value());
+    if (!scene.normal_strength) continue;
+    p.normal_strength.push_back(share * *scene.normal_strength);
+    p.tangential_strength.push_back(share * scene.tangential_strength.value_or(*scene.normal_strength));
+    p.full_energy.push_back(full * *scene.normal_strength * *scene.normal_strength / (2 * scene.normal_stiffness));
+  }
+  if (breakable.size() == 2)
+    throw SceneError(
+        "links: some groups have strengths and others none; give every [links] section a normal_strength, "
+        "as large as it takes where links should not break");
+  if (stage.contact) {
+    p.contact_after = true;
+    p.friction = stage.contact->friction;
+    p.tangential_ratio = stage.contact->tangential_ratio;
+  }
+  model.links = std::make_unique<CohesiveLinks>(model.layout, std::move(p));
+}
+
+void add_contacts(Model& model, const Stage& stage, const std::vector<double>& tributary, const Field& x) {
+  const Sample& s = model.sample;
+  const ContactScene& scene = *stage.contact;
+  double kappa = 0;
+  if (scene.normal_stiffness) {
+    kappa = *scene.normal_stiffness;
+  } else if (!stage.links.empty()) {
+    const LinkScene& links = stage.links.at("links");
+    double mean = 0;  // per_link stiffness over the mean spacing
+    for (const Link& link : s.links) mean += link.spacing / static_cast<double>(s.links.size());
+    kappa = links.per == "length" ? links.normal_stiffness : mean > 0 ? links.normal_stiffness / mean : 0.0;
+  }
+  if (!(kappa > 0))
+    throw SceneError("contact.normal_stiffness: missing, and there are no links to take it from; give it in N/m2");
+  ContactParameters p;
+  for (double length : tributary) p.node_stiffness.push_back(kappa * length);
+  p.node_mass = model.mass;
+  p.friction = scene.friction;
+  p.tangential_ratio = scene.tangential_ratio;
+  p.damping = scene.damping;
+  p.skin = scene.skin;
+  // A chain of one segment is a wall without nodes of its own: the others press against it with their full stiffness.
+  for (Index c = 0; c < s.cells(); ++c) p.bare.push_back(!s.closed[c] && s.cell_size(c) == 2);
+  model.contacts = std::make_unique<Contacts>(s, std::move(p), x);
+  model.friction = scene.friction;
+  model.contact_damping = scene.damping;
+  if (model.links)
+    for (Index l = 0; l < static_cast<Index>(s.links.size()); ++l) {
+      model.contacts->set_pair_stiffness(l, model.links->normal_stiffness(l));
+      model.contacts->set_intact(l);
+    }
+}
+
+}  // namespace
+
+std::unique_ptr<Model> build_model(const Sample& sample, const Stage& stage, const Field& x) {
+  auto model = std::make_unique<Model>(sample);
+  const auto section = cell_sections(sample, stage);
+  const auto tributary = tributary_lengths(sample);
+  set_masses(*model, section, tributary);
+
+  std::vector<double> axial, bending, bar_dashpot, hinge_dashpot;
+  bool dashpots = false;
+  for (const CellScene* cell : section) {
+    axial.push_back(cell->axial());
+    bending.push_back(cell->bending());
+    bar_dashpot.push_back(cell->bar_dashpot);
+    hinge_dashpot.push_back(cell->hinge_dashpot);
+    dashpots = dashpots || cell->bar_dashpot > 0 || cell->hinge_dashpot > 0;
+  }
+  model->bars =
+      std::make_unique<Bars>(model->layout, axial, yields(section, [](const CellScene& c) { return c.bar_yield(); }));
+  bool bends = false;
+  for (double b : bending) bends = bends || b > 0;
+  if (bends)
+    model->hinges = std::make_unique<Hinges>(model->layout, bending,
+                                             yields(section, [](const CellScene& c) { return c.hinge_yield(); }));
+  add_core(*model, section);
+  if (!stage.links.empty()) {
+    if (sample.links.empty())
+      throw SceneError(
+          "links: the sample has no facing points to link; remove [links], or make a sample whose cells face each "
+          "other");
+    add_links(*model, stage);
+  }
+  if (stage.contact) add_contacts(*model, stage, tributary, x);
+  if (stage.gravity) model->gravity = std::make_unique<Gravity>(model->mass, stage.gravity->acceleration);
+  if (stage.drag) model->drag_rate = stage.drag->rate;
+  if (dashpots) model->dashpots = std::make_unique<Dashpots>(model->layout, bar_dashpot, hinge_dashpot);
+  return model;
+}
+
+std::vector<ShellTerm*> Model::shell_terms() const {
+  std::vector<ShellTerm*> out;
+  for (ShellTerm* term : std::initializer_list<ShellTerm*>{bars.get(), hinges.get(), core.get()})
+    if (term) out.push_back(term);
+  return out;
+}
+
+std::vector<Term*> Model::terms() const {
+  std::vector<Term*> out;
+  for (Term* term :
+       std::initializer_list<Term*>{bars.get(), hinges.get(), core.get(), links.get(), contacts.get(), gravity.get()})
+    if (term) out.push_back(term);
+  return out;
+}
+
+std::size_t Model::bytes() const {
+  std::size_t sum = 2 * sizeof(double) * mass.size();
+  for (const Term* term : terms()) sum += term->bytes();
+  if (dashpots) sum += dashpots->bytes();
+  return sum;
+}
+
+}  // namespace lamella

@@ -1,0 +1,154 @@
+// Contact: every node acts on the closest points of every other shell, and of its own shell further along.
+//
+// A node pushes with half of its own k_n, because what it touches pushes back through nodes of its own (with the full k_n against a
+// *bare* shell, whose nodes seek nothing): two walls hold the same energy whether their nodes face each other or not, and cells of
+// different stiffness meet with the mean of both. Feet are in feet.h, how several add up in overlap.h, friction in friction.h, the search
+// in candidates.h.
+#pragma once
+#include <array>
+#include <optional>
+#include <utility>
+
+#include "simulator/contact/candidates.h"
+#include "simulator/contact/drift.h"
+#include "simulator/contact/friction.h"
+#include "simulator/contact/overlap.h"
+#include "simulator/terms/term.h"
+
+namespace lamella {
+
+struct ContactParameters {
+  std::vector<double> node_stiffness;  // k_n of each node: stiffness per length times tributary length [N/m]
+  std::vector<double> node_mass;       // for the dashpots [kg]; empty without damping
+  double friction = 0;                 // mu
+  double tangential_ratio = 0.1;       // of the friction spring's stiffness to k_n
+  double damping = 0;                  // of the normal dashpots, as a fraction of critical
+  double skin = 0;                     // of the candidate list [m]; 0: chosen
+  std::vector<std::uint8_t>
+      bare;  // per cell: others press with their full stiffness, its own nodes seek no feet; empty: none
+};
+
+class Contacts final : public Term {
+ public:
+  /// All links of the sample count as broken until `set_intact`.
+  Contacts(const Sample& sample, ContactParameters parameters, const Field& x0);
+  Contacts(const Contacts&) = delete;  // rules_ refers to its neighbours
+
+  std::string name() const override { return "contacts"; }
+  double energy(const Field& x) const override;
+  void add_force(const Field& x, Field& f) const override;
+  void add_stiffness(const Field& x, StiffnessSink& sink) const override;
+  void commit(const Field& x) override;
+  void save(ArraySet& restart) const override;
+  /// Takes the friction springs, and from `link_intact` which links are gone.
+  void restore(const ArraySet& restart) override;
+  void add_output(const Field& x, ArraySet& frame) const override;
+  std::size_t bytes() const override;
+
+  // ---- the stepper's path: candidates, evaluate (in parts, in parallel), scatter, advance ----
+  /// Makes sure that every pair of node and cell is listed that can touch before some node has moved by half of skin() from
+  /// here. Makes a new list only when neighbours have moved against each other, and never changes a result.
+  void update_candidates(const Field& x);
+  /// Makes the list of candidates anew, however good the present one.
+  void rebuild(const Field& x);
+  double skin() const { return 0.5 * rules_.skin; }
+  /// Number of listed pairs.
+  Index active() const { return static_cast<Index>(list_.pairs.size()); }
+  /// Forces of pairs [begin, end), kept per pair. Ranges that do not overlap may be evaluated at the same time.
+  void evaluate(const Field& x, const Field& v, Index begin, Index end);
+  /// Adds what `evaluate` found, by node, then cell: springs into f, dashpots into damped_f (not touched without damping).
+  void scatter(Field& f, Field& damped_f) const;
+  /// Moves the friction springs to where the last `evaluate` was.
+  void advance();
+  double stored_in_friction() const;                          // [J]
+  double friction_dissipated() const { return dissipated_; }  // since the beginning, through restarts [J]
+
+  // ---- links ----
+  /// The two nodes of this link ignore the segments that meet at each other.
+  void set_intact(Index link);
+  /// What the two nodes of this link press each other's cell with, instead of their own k_n [N/m].
+  void set_pair_stiffness(Index link, double k_n);
+  /// The link is gone: from now on contact, whose friction springs start at f_t (clipped to mu f_n), half on each side.
+  void release(Index link, const Field& x, double f_t);
+
+  /// A node inside a closed cell where it was not at the beginning, or a wall across a chain: an unsigned distance pushes the wrong way.
+  std::optional<std::string> fault(const Field& x) const;
+
+  // ---- for the stable time step ----
+  /// Stiffness as if every listed pair touched, so that a new contact cannot surprise the step.
+  void add_possible_stiffness(const Field& x, StiffnessSink& sink) const;
+  /// The same for the dashpots [N s/m].
+  void add_possible_damping(const Field& x, StiffnessSink& sink) const;
+
+ private:
+  /// Force on a node and, with the opposite sign and the weights of a foot, on a segment.
+  struct FootForce {
+    Index segment = 0, next = 0;
+    double t = 0;
+    Vec2 force{0, 0};    // on the node [N]
+    Vec2 couple{0, 0};   // on `next`, and its opposite on `segment` [N]
+    Vec2 damping{0, 0};  // on the node [N]
+  };
+  using Outcome = std::array<FootForce, kMaxFeet + 1>;  // the last for friction
+  struct Touch {
+    Feet feet;
+    Overlap overlap;
+    double k = 0;  // [N/m]
+  };
+
+  double stiffness(const Pair& pair) const;
+  double tangential_stiffness(const Pair& pair) const { return p_.tangential_ratio * stiffness(pair); }
+  double reach(const Pair& pair) const;
+  double dashpot(const Pair& pair) const;
+  Touch touch(const CandidateList& list, const Pair& pair, const Field& x) const;
+  Sliding sliding(Index pair, const Slip& slip) const;
+  FrictionSpring next_spring(const Pair& pair, const Touch& touch, const Field& x, double stretch,
+                             double& dissipated) const;
+  void evaluate_friction(Index pair, const Touch& touch, const Field& x);
+  bool covers(const Field& x) const;
+  template <class Visit>
+  void for_each_touch(const Field& x, Visit visit) const;
+  template <class Visit>
+  void for_each_spring(Visit visit) const;
+  std::optional<Index> place_of(const Pair& pair) const;
+  Index list_pair(Index node, Index cell);
+  std::vector<std::pair<Index, Index>> nodes_inside(const Field& x) const;
+
+  const Sample& sample_;
+  ContactParameters p_;
+  std::vector<Index> cell_of_;
+  SelfReach self_reach_;
+  LinkedNodes linked_;
+  CandidateRules rules_;
+  std::vector<double> pair_stiffness_;           // per link [N/m]; empty until one is set
+  std::vector<std::pair<Index, Index>> inside_;  // (node, cell): inside from the beginning, sorted
+
+  Drift drift_;         // since the list was made
+  bool stale_ = false;  // the rules have changed since
+  CandidateList list_;
+  // per pair
+  std::vector<std::uint8_t> forces_;  // how many of outcome_ count
+  std::vector<Outcome> outcome_;
+  std::vector<FrictionSpring> spring_, trial_;  // committed, and where the last `evaluate` was; empty without friction
+  std::vector<double> slid_;                    // what the move from spring_ to trial_ dissipates [J]; likewise
+  double dissipated_ = 0;                       // [J]
+};
+
+template <class Visit>
+void Contacts::for_each_touch(const Field& x, Visit visit) const {
+  const bool listed = covers(x);
+  const CandidateList elsewhere = listed ? CandidateList{} : find_candidates(rules_, x);
+  const CandidateList& list = listed ? list_ : elsewhere;
+  for (const Pair& pair : list.pairs) {
+    const Touch t = touch(list, pair, x);
+    if (t.feet.count > 0) visit(pair, t);
+  }
+}
+
+template <class Visit>
+void Contacts::for_each_spring(Visit visit) const {
+  for (Index k = 0; k < static_cast<Index>(spring_.size()); ++k)
+    if (spring_[k].acts()) visit(k, list_.pairs[k], spring_[k]);
+}
+
+}  // namespace lamella

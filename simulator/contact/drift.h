@@ -1,0 +1,35 @@
+// How far neighbouring shells have moved against each other since the candidate list was made. Tells a list that is still good from one
+// that is not while the whole sample is being pulled: what counts is the relative motion of neighbours, not the way of the grips.
+#pragma once
+#include <utility>
+#include <vector>
+
+#include "generator/sample/sample.h"
+#include "simulator/positions.h"
+
+namespace lamella {
+
+/// Boxes around the nodes of every cell.
+std::vector<Box> bounding_boxes(const Sample& sample, const Field& x);
+
+/// Pairs of different cells, the lower first, whose boxes, grown by `grow` on all sides, meet.
+std::vector<std::pair<Index, Index>> meeting_boxes(const std::vector<Box>& boxes, double grow);
+
+class Drift {
+ public:
+  Drift() = default;
+  /// `reach` is the distance up to which the list is complete.
+  Drift(const Sample& sample, const Field& x, double reach);
+
+  /// No node has moved by more against a node that it may touch than this [m]; infinite where that cannot be told.
+  double relative(const Sample& sample, const Field& x) const;
+  const Field& start() const { return start_; }
+  std::size_t bytes() const { return 2 * sizeof(double) * start_.size() + sizeof(neighbours_[0]) * neighbours_.size(); }
+
+ private:
+  Field start_;
+  double range_ = 0;  // cells further apart than this (and the reach) are not neighbours [m]
+  std::vector<std::pair<Index, Index>> neighbours_;
+};
+
+}  // namespace lamella

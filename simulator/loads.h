@@ -1,0 +1,42 @@
+// Loads: groups of nodes whose velocity or force is prescribed, component by component. The two grips of a [loading] section are
+// loads too.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "generator/sample/sample.h"
+#include "generator/sample/scene.h"
+
+namespace lamella {
+
+struct Load {
+  std::string name;
+  std::vector<Index> nodes;        // ascending
+  bool holds[2] = {false, false};  // velocity prescribed, per component
+  bool pushes = false;             // force prescribed
+  Vec2 velocity = Vec2::Zero();    // in full [m/s]
+  std::vector<Vec2> force;         // on each node, in full [N]; empty unless `pushes`
+  double ramp = 0;                 // [s]
+  double factor = 1;               // of the full value in this step; set by the driver
+  bool grip = false;               // belongs to [loading]: its factor is the loading's
+};
+
+/// Smooth growth from 0 to 1 over [0, 1] with zero slope at both ends: a load that starts without a jolt.
+inline double smooth_ramp(double u) { return u <= 0 ? 0.0 : u >= 1 ? 1.0 : u * u * (3 - 2 * u); }
+
+/// The loads of a stage: the grips first (fixed one, then moving one), then [[loads]]. Throws SceneError where a node is held
+/// twice in one component, or a selection is empty.
+std::vector<Load> build_loads(const Sample& sample, const Stage& stage);
+
+/// Where the grips are: measures of the loading that strain and stress refer to (physics: grips).
+struct Gauge {
+  int axis = 1;       // 0 x, 1 y
+  int component = 1;  // of the grips' motion: the axis, or across it in shear
+  double length = 0;  // initial distance of the gripped centre lines [m]
+  double width = 0;   // of the box across the load [m]
+  double depth = 1;   // s of the cells [m]
+  double speed = 0;   // of the grips' separation in full [m/s]; positive opens
+};
+Gauge measure_gauge(const Sample& sample, const Stage& stage, const std::vector<Load>& loads);
+
+}  // namespace lamella

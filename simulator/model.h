@@ -1,0 +1,57 @@
+// A model: the terms that a stage of a scene asks for, over one sample. What a scene does not name is a null pointer here, and costs nothing.
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "generator/sample/sample.h"
+#include "generator/sample/scene.h"
+#include "simulator/contact/contacts.h"
+#include "simulator/shells.h"
+#include "simulator/terms/bars.h"
+#include "simulator/terms/cohesive_links.h"
+#include "simulator/terms/core.h"
+#include "simulator/terms/dashpots.h"
+#include "simulator/terms/gravity.h"
+#include "simulator/terms/hinges.h"
+
+namespace lamella {
+
+/// Drained pressure that follows a history: (time [s], pressure [Pa]), linear between.
+struct PressureHistory {
+  Index cell = 0;
+  const std::vector<Vec2>* points = nullptr;
+};
+
+struct Model {
+  explicit Model(const Sample& s) : sample(s), layout(s) {}
+  Model(const Model&) = delete;
+
+  const Sample& sample;
+  ShellLayout layout;
+  std::vector<double> mass, inverse_mass;  // of the nodes [kg], [1/kg]
+
+  std::unique_ptr<Bars> bars;
+  std::unique_ptr<Hinges> hinges;
+  std::unique_ptr<Core> core;
+  std::unique_ptr<CohesiveLinks> links;
+  std::unique_ptr<Contacts> contacts;
+  std::unique_ptr<Gravity> gravity;
+  std::unique_ptr<Dashpots> dashpots;
+  double drag_rate = 0;        // [1/s]; 0: no drag
+  double contact_damping = 0;  // fraction of critical; 0: none
+  double friction = 0;         // mu; 0: none
+  std::vector<PressureHistory> pressure_histories;
+
+  /// The terms that are there, in a fixed order.
+  std::vector<Term*> terms() const;
+  /// Terms inside cells, in the order in which a block adds them.
+  std::vector<ShellTerm*> shell_terms() const;
+  std::size_t bytes() const;
+};
+
+/// The table "this section of the scene makes this term"; nothing else decides what is simulated. `x` are the positions at which
+/// the stage starts. Throws SceneError for parameters that the sample cannot take.
+std::unique_ptr<Model> build_model(const Sample& sample, const Stage& stage, const Field& x);
+
+}  // namespace lamella

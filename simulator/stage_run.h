@@ -1,0 +1,76 @@
+// One stage of a run: model, loads, stepper and clock, from a starting state to the stop condition that ends it.
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "simulator/loading.h"
+#include "simulator/model.h"
+#include "simulator/simulate.h"
+#include "simulator/steppers/stable_time_step.h"
+#include "simulator/steppers/velocity_verlet.h"
+
+namespace lamella {
+
+class StageRun {
+ public:
+  /// `start`: arrays of a restart, or of the last frame of the stage that this one continues; empty: the sample at rest.
+  /// `resumed`: the start is a frame of this very stage, already on disk.
+  enum class Start { kFresh, kContinued, kResumed };
+  StageRun(const Sample& sample, const Scene& scene, int stage, const ArraySet& start, Start how);
+
+  /// Columns of the response, and their units, of this stage.
+  void columns(std::vector<std::string>& names, std::vector<std::string>& units) const;
+  std::vector<std::string> summary() const;
+  void describe(Provenance& provenance) const;
+
+  /// Steps until a stop condition holds; writes frames, rows and events. Returns why it ended.
+  std::string run(TrajectoryWriter& writer, const SimulateOptions& options, const std::vector<std::string>& columns,
+                  RunFacts& facts);
+  /// State at the last frame, for the stage that continues this one.
+  const ArraySet& last() const { return last_; }
+
+ private:
+  struct Row;
+  void plan_step();
+  void set_loads(double dt);
+  Row weigh(double energy, const Measurement& m) const;
+  std::optional<std::string> stop_reason(const Row& row);
+  void check_health() const;
+  void write(TrajectoryWriter& writer, ArraySet arrays, ArraySet restart, double time, std::int64_t step);
+  ArraySet restart_arrays() const;
+  bool separated() const;
+
+  const Sample& sample_;
+  const Scene& scene_;
+  const Stage& stage_;
+  int index_;
+  State state_;
+  std::unique_ptr<Model> model_;
+  std::vector<Load> loads_;
+  Gauge gauge_;
+  std::optional<LoadingCourse> course_;
+  std::unique_ptr<VelocityVerlet> stepper_;
+  StableStep stable_;
+  bool resumed_ = false;
+
+  // clock of the stage: rows are equally spaced, frames fall on rows, steps divide the time between rows
+  double start_time_ = 0;    // [s]
+  double row_interval_ = 0;  // [s]
+  std::int64_t row_ = 0;     // rows done
+  std::int64_t rows_per_frame_ = 1;
+  std::int64_t steps_per_row_ = 0;
+  double dt_ = 0, last_dt_ = 0;  // [s]
+  double duration_ = 0;          // expected, or the limit [s]
+  // history of the stage
+  double peak_stress_ = 0;  // [Pa]
+  int broken_ = 0;
+  double largest_work_ = 0;             // [J]
+  std::vector<double> base_;            // ledger at the first row: see weigh()
+  std::vector<double> pressure_lever_;  // of prescribed pressures at the last step [J/Pa]
+  double pressure_work_ = 0;            // [J]
+  ArraySet last_;
+};
+
+}  // namespace lamella

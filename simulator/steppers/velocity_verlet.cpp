@@ -1,0 +1,378 @@
+#include "simulator/steppers/velocity_verlet.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace lamella {
+
+struct VelocityVerlet::Worker {
+  explicit Worker(const ShellLayout& layout) : scratch(layout) {}
+  ShellScratch scratch;
+  LinkForces links;
+};
+
+struct VelocityVerlet::Run {
+  Index load = 0;
+  std::vector<Index> nodes;
+  std::vector<Vec2> force;          // of a pushing load, in full [N]
+  std::vector<Vec2> next_velocity;  // scratch of the step [m/s]
+  Vec2 reaction = Vec2::Zero();     // on the sample, in this step [N]
+  double work = 0, work_out = 0;    // so far; second half of this step's [J]
+};
+
+VelocityVerlet::~VelocityVerlet() = default;
+
+VelocityVerlet::VelocityVerlet(Model& model, std::vector<Load>& loads, State& state, int threads)
+    : model_(model), loads_(loads), state_(state), team_(std::max(1, threads)), f_(state.x.size()) {
+  const ShellLayout& layout = model.layout;
+  const Index blocks = static_cast<Index>(layout.blocks().size());
+  if (model.dashpots || model.contact_damping > 0) damped_f_ = Field(state.x.size());
+  shell_terms_ = model.shell_terms();
+  for (int t = 0; t < team_.size(); ++t) workers_.emplace_back(layout);
+  sums_.resize(blocks);
+  boundary_.resize(blocks);
+  broken_.resize(layout.chunks());
+  dropped_kinetic_.assign(layout.chunks(), 0.0);
+  incoming_.resize(layout.chunks());
+  if (model.links)
+    for (Index b = 0; b < blocks; ++b)
+      for (Index i = model.links->middle(b); i < model.links->end(b); ++i)
+        incoming_[layout.chunk_of_block(layout.block_of_cell(model.links->cell_b(i)))].emplace_back(b, i);
+
+  fully_held_.assign(state.x.size(), 0);
+  runs_.resize(blocks);
+  for (std::size_t l = 0; l < loads.size(); ++l) {
+    const Load& load = loads[l];
+    Index block = 0;
+    for (std::size_t k = 0; k < load.nodes.size(); ++k) {
+      const Index node = load.nodes[k];
+      while (node >= layout.blocks()[block].node_end) ++block;
+      auto& runs = runs_[block];
+      if (runs.empty() || runs.back().load != static_cast<Index>(l)) {
+        runs.emplace_back();
+        runs.back().load = static_cast<Index>(l);
+      }
+      Run& run = runs.back();
+      run.nodes.push_back(node);
+      if (load.pushes) run.force.push_back(load.force[k]);
+      run.next_velocity.emplace_back(0, 0);
+      if (load.holds[0]) fully_held_[node] |= 1;
+      if (load.holds[1]) fully_held_[node] |= 2;
+    }
+  }
+  for (auto& mask : fully_held_) mask = mask == 3;
+}
+
+// A measured configuration is weighed before its breaks: 1/2 m v(n-1/2) . v(n+1/2) with the kick that it would have had whole.
+double VelocityVerlet::dropped_kinetic(const std::vector<Break>& breaks, std::size_t first, double kick) const {
+  double sum = 0;
+  for (std::size_t k = first; k < breaks.size(); ++k) {
+    const Link& link = model_.sample.links[breaks[k].link];
+    const Field& v = state_.v;
+    sum += 0.5 * kick * breaks[k].dropped_force.dot(v.at(link.a) - v.at(link.b));
+    sum += 0.5 * kick *
+           breaks[k].dropped_frame_force.dot(v.at(link.a_prev) - v.at(link.a_next) + v.at(link.b_next) -
+                                             v.at(link.b_prev));
+  }
+  return sum;
+}
+
+// Links whose cells lie in different chunks, while all positions are still those of this step.
+void VelocityVerlet::evaluate_boundary(Index chunk, double kick) {
+  for (Index b = model_.layout.chunk(chunk); b < model_.layout.chunk(chunk + 1); ++b) {
+    const Index first = model_.links->middle(b), last = model_.links->end(b);
+    if (first == last) continue;
+    if (model_.links->evaluate(state_.x, first, last, boundary_[b]))
+      model_.links->break_exceeded(state_.x, first, last, boundary_[b], broken_[chunk]);
+    model_.links->combine(first, last, boundary_[b]);
+  }
+  dropped_kinetic_[chunk] = dropped_kinetic(broken_[chunk], 0, kick);
+}
+
+// What the sweep of this block will read.
+void VelocityVerlet::prefetch_block(Index b) const {
+  using Arrays = std::initializer_list<const std::vector<double>*>;
+  // Below, all lies in caches near enough, and asking costs more (4 % at 20,000 nodes) than it gains.
+  constexpr std::size_t many = 100'000;
+  if (state_.x.size() < many || b >= static_cast<Index>(model_.layout.blocks().size())) return;
+  const CellBlock& block = model_.layout.blocks()[b];
+  const Arrays swept = {&state_.x.x, &state_.x.y, &f_.x,        &f_.y,
+                        &state_.v.x, &state_.v.y, &model_.mass, &model_.inverse_mass};
+  for (const auto* values : swept) prefetch(*values, block.node_begin, block.node_end);
+  for (const ShellTerm* term : shell_terms_) term->prefetch_block(block);
+  if (!model_.links) return;
+  model_.links->prefetch_stations(model_.links->begin(b), model_.links->middle(b));
+  // Links reach on into the next row of cells, as far as the blocks move on.
+  const Index begin = b > 0 ? model_.links->farthest_node(b - 1) : 0, end = model_.links->farthest_node(b) + 1;
+  const Arrays linked = {&state_.x.x, &state_.x.y, &f_.x, &f_.y};
+  for (const auto* values : linked) prefetch(*values, begin, end);
+}
+
+template <bool Measured>
+void VelocityVerlet::sweep_block(Index b, Worker& w, double dt, double kick, Field* force_on_node) {
+  const CellBlock& block = model_.layout.blocks()[b];
+  const Sample& sample = model_.sample;
+  Field &x = state_.x, &v = state_.v;
+  BlockSums& sums = sums_[b];
+  prefetch_block(b + 1);
+
+  // forces
+  if (CohesiveLinks* links = model_.links.get()) {
+    const Index first = links->begin(b), last = links->middle(b);
+    if (links->evaluate(x, first, last, w.links)) {
+      const Index chunk = model_.layout.chunk_of_block(b);
+      const std::size_t before = broken_[chunk].size();
+      links->break_exceeded(x, first, last, w.links, broken_[chunk]);
+      dropped_kinetic_[chunk] += dropped_kinetic(broken_[chunk], before, kick);
+    }
+    links->combine(first, last, w.links);
+    links->scatter(w.links, first, last, f_);
+  }
+  if (model_.gravity) model_.gravity->add_force_to(block.node_begin, block.node_end, f_);
+  w.scratch.load(sample, block, x);
+  for (ShellTerm* term : shell_terms_) term->add_to_block(w.scratch, f_);
+  w.scratch.add_section_forces(sample, f_);
+  for (ShellTerm* term : shell_terms_)
+    if (term->has_history()) term->commit_block(b, w.scratch);
+  if constexpr (Measured) {
+    double square = 0;
+    for (Index c = block.cell_begin; c < block.cell_end; ++c) {
+      const Index at = ShellLayout::slot(c, sample.cell_begin[c]) - block.slot_begin;
+      for (Index k = at; k < at + sample.segments(c); ++k)
+        square += w.scratch.sx[k] * w.scratch.sx[k] + w.scratch.sy[k] * w.scratch.sy[k];
+    }
+    sums.section_square = square;
+  }
+  if (model_.dashpots) {
+    std::fill_n(w.scratch.sx.begin(), block.slots, 0.0);
+    std::fill_n(w.scratch.sy.begin(), block.slots, 0.0);
+    w.scratch.load_velocity(sample, v);
+    model_.dashpots->add_to_block(w.scratch);
+    w.scratch.add_section_forces(sample, damped_f_);
+  }
+  double *X = x.x.data(), *Y = x.y.data(), *VX = v.x.data(), *VY = v.y.data(), *FX = f_.x.data(), *FY = f_.y.data();
+  const double *MASS = model_.mass.data(), *IM = model_.inverse_mass.data();
+  if (damped_f_.size() > 0)
+    for (Index i = block.node_begin; i < block.node_end; ++i) FX[i] += damped_f_.x[i], FY[i] += damped_f_.y[i];
+
+  // loads: forces first, then what holds; a held component leaves the sweep with velocity and force 0 and is moved after it
+  double held_kinetic = 0;
+  double damped_in = 0, damped_out = 0;  // work of dashpots
+  for (Run& run : runs_[b]) {
+    const Load& load = loads_[run.load];
+    run.reaction.setZero();
+    if (!load.pushes) continue;
+    for (std::size_t k = 0; k < run.nodes.size(); ++k) {
+      const Vec2 push = load.factor * run.force[k];
+      f_.add(run.nodes[k], push);
+      run.reaction += push;
+      if (Measured && force_on_node) force_on_node->add(run.nodes[k], push);
+    }
+  }
+  for (Run& run : runs_[b]) {
+    const Load& load = loads_[run.load];
+    run.work_out = 0;
+    double work_in = 0;
+    for (std::size_t k = 0; k < run.nodes.size(); ++k) {
+      const Index i = run.nodes[k];
+      for (int c = 0; c < 2; ++c) {
+        double& velocity = c == 0 ? VX[i] : VY[i];
+        double& force = c == 0 ? FX[i] : FY[i];
+        if (load.holds[c]) {
+          const double next = load.factor * load.velocity[c];
+          const double reaction = MASS[i] * (next - velocity) / kick - force;
+          // What the sample feels: without the inertia of the held nodes, which would show every change of speed as a spike.
+          run.reaction[c] -= force;
+          if (Measured && force_on_node) (c == 0 ? force_on_node->x : force_on_node->y)[i] -= force;
+          work_in += 0.5 * kick * reaction * velocity;
+          run.work_out += 0.5 * kick * reaction * next;
+          if constexpr (Measured) held_kinetic += 0.5 * MASS[i] * velocity * next;
+          if (damped_f_.size() > 0) {
+            const double damped = c == 0 ? damped_f_.x[i] : damped_f_.y[i];
+            damped_in -= damped * velocity, damped_out -= damped * next;
+          }
+          run.next_velocity[k][c] = next;
+          velocity = 0, force = 0;
+        }
+      }
+    }
+    run.work += work_in + run.work_out;
+  }
+  // work of pushing forces needs the velocities before and after; before:
+  for (Run& run : runs_[b]) {
+    const Load& load = loads_[run.load];
+    if (!load.pushes) continue;
+    for (std::size_t k = 0; k < run.nodes.size(); ++k)
+      run.work += 0.5 * kick * load.factor * run.force[k].dot(v.at(run.nodes[k]));
+  }
+  if (damped_f_.size() > 0)
+    for (Index i = block.node_begin; i < block.node_end; ++i)
+      damped_in -= damped_f_.x[i] * VX[i] + damped_f_.y[i] * VY[i];
+
+  // kick and drift; drag half implicit: it does not shorten the stable step
+  const double g = 0.5 * model_.drag_rate * kick, c1 = (1 - g) / (1 + g), c2 = kick / (1 + g);
+  double damping = 0, damping_in = 0, kinetic = 0, fastest = 0, largest = 0;
+  const Index begin = block.node_begin, end = block.node_end;
+#pragma omp simd reduction(+ : damping, damping_in, kinetic) reduction(max : fastest, largest)
+  for (Index i = begin; i < end; ++i) {
+    const double nx = c1 * VX[i] + c2 * FX[i] * IM[i], ny = c1 * VY[i] + c2 * FY[i] * IM[i];
+    const double mx = 0.5 * (VX[i] + nx), my = 0.5 * (VY[i] + ny);
+    damping += MASS[i] * (mx * mx + my * my);
+    if constexpr (Measured) {
+      damping_in += MASS[i] * (mx * VX[i] + my * VY[i]);
+      kinetic += MASS[i] * (VX[i] * nx + VY[i] * ny);
+      largest = std::max(largest, FX[i] * FX[i] + FY[i] * FY[i]);
+    }
+    fastest = std::max(fastest, nx * nx + ny * ny);
+    X[i] += dt * nx, Y[i] += dt * ny;
+    VX[i] = nx, VY[i] = ny;
+    FX[i] = 0, FY[i] = 0;
+  }
+  const double drag_work = model_.drag_rate * kick * damping;
+  if (damped_f_.size() > 0)
+    for (Index i = begin; i < end; ++i) {
+      damped_out -= damped_f_.x[i] * VX[i] + damped_f_.y[i] * VY[i];
+      damped_f_.x[i] = damped_f_.y[i] = 0;
+    }
+  sums.damping += drag_work + 0.5 * kick * (damped_in + damped_out);
+  if constexpr (Measured) {
+    sums.damping_out = drag_work - 0.5 * model_.drag_rate * kick * damping_in + 0.5 * kick * damped_out;
+    sums.kinetic = 0.5 * kinetic + held_kinetic;
+    sums.largest_force = largest;
+  }
+
+  for (Run& run : runs_[b]) {
+    const Load& load = loads_[run.load];
+    for (std::size_t k = 0; k < run.nodes.size(); ++k) {
+      const Index i = run.nodes[k];
+      if (load.pushes) {
+        const double out = 0.5 * kick * load.factor * run.force[k].dot(v.at(i));
+        run.work += out, run.work_out += out;
+      }
+      if (load.holds[0]) VX[i] = run.next_velocity[k].x(), X[i] += dt * VX[i];
+      if (load.holds[1]) VY[i] = run.next_velocity[k].y(), Y[i] += dt * VY[i];
+      fastest = std::max(fastest, VX[i] * VX[i] + VY[i] * VY[i]);
+    }
+  }
+  sums.speed = fastest;
+}
+
+template <bool Measured>
+void VelocityVerlet::advance(double dt, double kick, Field* force_on_node) {
+  Contacts* const contacts = model_.contacts.get();
+  if (contacts && 2 * moved_ > contacts->skin()) {
+    contacts->update_candidates(state_.x);
+    moved_ = 0;
+  }
+  const Index chunks = model_.layout.chunks();
+  const bool detour = model_.links && chunks > 1;
+  const int team = team_.size();
+  team_.run([&](int thread) {
+    Worker& worker = workers_[thread];
+    const Index first = chunks * thread / team, last = chunks * (thread + 1) / team;
+    if (contacts && contacts->active() > 0) {
+      const std::int64_t pairs = contacts->active();
+      contacts->evaluate(state_.x, state_.v, static_cast<Index>(pairs * thread / team),
+                         static_cast<Index>(pairs * (thread + 1) / team));
+      team_.meet();
+      if (thread == 0) contacts->scatter(f_, damped_f_);
+      if (!detour) team_.meet();
+    }
+    if (detour) {
+      for (Index c = first; c < last; ++c) evaluate_boundary(c, kick);
+      team_.meet();
+    }
+    for (Index c = first; c < last; ++c) {
+      if (detour) {
+        const CohesiveLinks& links = *model_.links;
+        for (Index b = model_.layout.chunk(c); b < model_.layout.chunk(c + 1); ++b)
+          links.scatter_a(boundary_[b], 0, links.middle(b), links.end(b), f_);
+        for (const auto& [b, i] : incoming_[c]) links.scatter_b(boundary_[b], i - links.middle(b), i, i + 1, f_);
+      }
+      for (Index b = model_.layout.chunk(c); b < model_.layout.chunk(c + 1); ++b)
+        sweep_block<Measured>(b, worker, dt, kick, force_on_node);
+    }
+  });
+
+  if constexpr (!Measured) std::fill(dropped_kinetic_.begin(), dropped_kinetic_.end(), 0.0);
+  double fastest = 0;
+  for (const auto& s : sums_) fastest = std::max(fastest, s.speed);
+  moved_ += std::sqrt(fastest) * dt;
+  if (contacts) contacts->advance();
+  std::vector<Break> now;
+  for (auto& list : broken_) now.insert(now.end(), list.begin(), list.end()), list.clear();
+  std::sort(now.begin(), now.end(), [](const Break& a, const Break& b) { return a.link < b.link; });
+  for (const Break& event : now) {
+    model_.links->set_break_time(event.link, state_.time);
+    if (contacts) contacts->release(event.link, state_.x, event.friction_force);
+    booked_.fracture += event.energy;
+    breaks_.push_back(event);
+  }
+  state_.time += dt;
+  ++state_.step;
+  ++steps_;
+}
+
+void VelocityVerlet::step(double dt, double kick) { advance<false>(dt, kick, nullptr); }
+
+// At the start of the step that has just been measured: the second halves of its works are still to come.
+Works VelocityVerlet::works_at_start() const {
+  Works w = booked_;
+  for (const auto& runs : runs_)
+    for (const Run& run : runs) w.loads += run.work - run.work_out;
+  for (const BlockSums& s : sums_) w.damping += s.damping - s.damping_out;
+  return w;
+}
+
+Measurement VelocityVerlet::measured_step(double dt, double kick, Field* force_on_node) {
+  // History that moves in this step belongs to its end.
+  Works history = booked_;
+  for (const ShellTerm* term : shell_terms_) history.plastic += term->dissipated();
+  if (model_.contacts && model_.friction > 0) history.friction = model_.contacts->friction_dissipated();
+
+  advance<true>(dt, kick, force_on_node);
+
+  Measurement m;
+  m.works = works_at_start();
+  m.works.plastic = history.plastic, m.works.friction = history.friction, m.works.fracture = history.fracture;
+  m.load_force.assign(loads_.size(), Vec2::Zero());
+  for (const auto& runs : runs_)
+    for (const Run& run : runs) m.load_force[run.load] += run.reaction;
+  double square = 0, largest = 0;
+  for (const BlockSums& s : sums_) {
+    m.kinetic += s.kinetic;
+    square += s.section_square;
+    largest = std::max(largest, s.largest_force);
+  }
+  for (double& dropped : dropped_kinetic_) m.kinetic += std::exchange(dropped, 0.0);
+  const double rms = std::sqrt(square / std::max<std::size_t>(1, state_.x.size()));
+  m.unbalanced = largest > 0 ? std::sqrt(largest) / (std::sqrt(largest) + rms) : 0.0;
+  return m;
+}
+
+std::vector<Break> VelocityVerlet::take_breaks() { return std::exchange(breaks_, {}); }
+
+void VelocityVerlet::save(ArraySet& restart) const {
+  std::vector<double> loads, damping;
+  for (const auto& runs : runs_)
+    for (const Run& run : runs) loads.push_back(run.work);
+  for (const BlockSums& s : sums_) damping.push_back(s.damping);
+  restart.add({"stepper_load_work", "J", "run", 1, std::move(loads)});
+  restart.add({"stepper_damping", "J", "block", 1, std::move(damping)});
+  restart.add({"stepper_booked", "J", "model", 1, std::vector<double>{booked_.fracture}});
+}
+
+void VelocityVerlet::restore(const ArraySet& restart) {
+  std::size_t k = 0;
+  const auto& loads = restart.doubles("stepper_load_work");
+  for (auto& runs : runs_)
+    for (Run& run : runs) run.work = loads.at(k++);
+  const auto& damping = restart.doubles("stepper_damping");
+  for (std::size_t b = 0; b < sums_.size(); ++b) sums_[b].damping = damping.at(b);
+  const auto& booked = restart.doubles("stepper_booked");
+  booked_.fracture = booked.at(0);
+}
+
+}  // namespace lamella

@@ -1,0 +1,104 @@
+// Velocity Verlet, written with velocities half a step behind: v(n+1/2) = v(n-1/2) + dt f(n) / m, x(n+1) = x(n) + dt v(n+1/2). One sweep over
+// blocks of cells computes a block's forces and integrates it at once, in place, while it is in cache: a link belongs to
+// the lower of its two blocks, so all forces on a block are complete when its turn comes. Links between chunks (the
+// unit of a thread) are evaluated before the sweep. Every sum runs in an order that does not depend on the number of threads.
+//
+// It knows no term by its formula; energies and works are booked as the ledger of docs/model.md needs them: a force does the work
+// f . (v(n-1/2) + v(n+1/2)) dt / 2, of which the first half belongs to the time before step n.
+#pragma once
+#include <vector>
+
+#include "simulator/loads.h"
+#include "simulator/model.h"
+#include "simulator/steppers/team.h"
+
+namespace lamella {
+
+struct State {
+  Field x;          // positions at `time` [m]
+  Field v;          // velocities half a step before [m/s]
+  double time = 0;  // [s]
+  std::int64_t step = 0;
+};
+
+/// What left the mechanical energy, or entered it, since the stepper was made [J].
+struct Works {
+  double loads = 0;     // work of grips and prescribed forces
+  double pressure = 0;  // work of prescribed pressures; booked by whoever prescribes them
+  double damping = 0;   // drag, dashpots, contact damping
+  double friction = 0;
+  double plastic = 0;
+  double fracture = 0;
+};
+
+/// A configuration weighed on the way through it. Everything refers to the start of the step.
+struct Measurement {
+  Works works;
+  double kinetic = 0;            // 1/2 m v(n-1/2) . v(n+1/2) [J]
+  std::vector<Vec2> load_force;  // what each load exerts on the sample, its nodes' inertia apart [N]
+  double unbalanced = 0;         // largest force F on a free node: F / (F + root mean square section force) [1]
+};
+
+class VelocityVerlet {
+ public:
+  VelocityVerlet(Model& model, std::vector<Load>& loads, State& state, int threads);
+
+  /// One step. `kick` is the mean of the last step and this one where the step changes, else dt.
+  void step(double dt, double kick);
+  /// One step, weighed. `force_on_node` receives what loads exert on each node, where wanted.
+  Measurement measured_step(double dt, double kick, Field* force_on_node);
+
+  /// Breaks since the last call, in order of time, then link.
+  std::vector<Break> take_breaks();
+  /// Number of steps so far.
+  std::int64_t steps() const { return steps_; }
+  const std::vector<std::uint8_t>& fully_held() const { return fully_held_; }
+
+  void save(ArraySet& restart) const;
+  void restore(const ArraySet& restart);
+
+ private:
+  struct HeldNode {
+    Index node;
+    std::uint8_t mask;
+  };
+  struct Run;     // the part of a load that lies in one block
+  struct Worker;  // scratch of a thread
+  struct BlockSums {
+    double damping = 0, damping_out = 0, kinetic = 0, largest_force = 0, section_square = 0, speed = 0;
+  };
+
+  template <bool Measured>
+  void advance(double dt, double kick, Field* force_on_node);
+  template <bool Measured>
+  void sweep_block(Index block, Worker& worker, double dt, double kick, Field* force_on_node);
+  void evaluate_boundary(Index chunk, double kick);
+  void prefetch_block(Index block) const;
+  Works works_at_start() const;
+  double dropped_kinetic(const std::vector<Break>& breaks, std::size_t first, double kick) const;
+
+  Model& model_;
+  std::vector<Load>& loads_;
+  State& state_;
+  Team team_;
+  Field f_, damped_f_;  // zero between steps
+  std::vector<ShellTerm*> shell_terms_;
+  std::vector<Worker> workers_;
+  std::vector<std::vector<Run>> runs_;  // per block
+  std::vector<BlockSums> sums_;         // per block
+  std::vector<LinkForces> boundary_;    // per block: its links to other chunks
+  std::vector<std::vector<std::pair<Index, Index>>>
+      incoming_;                            // per chunk: (block, position) of links that reach it from others
+  std::vector<std::vector<Break>> broken_;  // per chunk, in this step
+  std::vector<double> dropped_kinetic_;     // per chunk, in this step [J]
+  std::vector<Break> breaks_;
+  std::vector<std::uint8_t> fully_held_;
+  Works booked_;      // all but the cumulative sums of blocks and runs
+  double moved_ = 0;  // bound on any node's way since the candidates were last checked [m]
+  std::int64_t steps_ = 0;
+
+ public:
+  ~VelocityVerlet();
+};
+
+}  // namespace lamella

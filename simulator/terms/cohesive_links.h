@@ -1,0 +1,127 @@
+// Cohesive links between facing nodes of two cells: W = 1/2 k_n (D.n - o_n)^2 + 1/2 k_t (D.t - o_t)^2 with D = x_b - x_a and the
+// frame of the current interface, t along tau = (x_a+ - x_a-) - (x_b+ - x_b-). The frame is differentiated too: a link
+// of finite length that carries f_t turns its walls by the couple f_t D_n, and a rigid rotation creates no force.
+//
+// WHERE DOES A LINK BREAK? In `break_exceeded`, here, and nowhere else. Whether it should is `yield_function` in laws/cohesive.h.
+#pragma once
+#include <cstdint>
+#include <optional>
+
+#include "simulator/shells.h"
+#include "simulator/terms/term.h"
+
+namespace lamella {
+
+/// Per link of the sample.
+struct LinkParameters {
+  std::vector<double> normal_stiffness, tangential_stiffness;  // k_n, k_t [N/m]
+  std::vector<double> normal_strength, tangential_strength;    // [N]; both empty: links never break
+  std::vector<double> full_energy;                             // W_0 of a link of one full spacing [J]; empty likewise
+  double exponent = 2;                                         // alpha
+  // What remains of a pair once its link is gone: contact of the link's own normal stiffness, and friction.
+  bool contact_after = false;
+  double friction = 0;          // mu
+  double tangential_ratio = 0;  // of the friction spring to k_n
+};
+
+/// A link that has just broken.
+struct Break {
+  Index link = 0;
+  double f_n = 0, f_t = 0;       // at the break [N]
+  double friction_force = 0;     // f_t clipped to mu f_n, where the contact's friction spring starts [N]
+  double energy = 0;             // link energy lost less contact energy gained [J]
+  Vec2 position = Vec2::Zero();  // [m]
+  // What the step of the break leaves out of the full forces: on a (b has the opposite), and of G. The ledger weighs a
+  // configuration before its breaks.
+  Vec2 dropped_force = Vec2::Zero(), dropped_frame_force = Vec2::Zero();  // [N]
+};
+
+/// Forces at consecutive stations: F on a and -F on b, and G of the turning frame; padded by one zero in front and behind.
+struct LinkForces {
+  std::vector<double> fx, fy, gx, gy;
+  std::vector<double> f_n, f_t;
+  std::vector<double> dx, dy, cx, cy;  // scratch: x_b - x_a and x_b + x_a, then the sums on a and b
+  void resize(std::size_t n);
+};
+
+class CohesiveLinks final : public Term {
+ public:
+  CohesiveLinks(const ShellLayout& layout, LinkParameters parameters);
+
+  std::string name() const override { return "links"; }
+  double energy(const Field& x) const override;
+  void add_force(const Field& x, Field& f) const override;
+  void add_stiffness(const Field& x, StiffnessSink& sink) const override;
+  /// Breaks every link whose criterion is exceeded at x, all judged on this one configuration. Breaks are kept in `breaks()`.
+  void commit(const Field& x) override;
+  void save(ArraySet& restart) const override;
+  void restore(const ArraySet& restart) override;
+  void add_output(const Field& x, ArraySet& frame) const override;
+  std::size_t bytes() const override;
+
+  // ---- the stepper's path. A *station* is a pair of facing nodes (a, b): every link, and at times a pair that only lends its
+  // positions to a neighbour's tangent. Stations of a wall follow each other, so that tau at one is c(next) - c(previous) with
+  // c = x_a + x_b: four loads a link instead of twelve, and contiguous ones. ----
+  /// Stations owned by each block (that of their lower cell): [begin, middle) stay inside the block's chunk, [middle, end) leave it.
+  Index begin(Index block) const { return block_begin_[block]; }
+  Index middle(Index block) const { return block_middle_[block]; }
+  Index end(Index block) const { return block_begin_[block + 1]; }
+  /// Forces at stations [begin, end), result i - begin. Returns true if a link exceeds its criterion.
+  bool evaluate(const Field& x, Index begin, Index end, LinkForces& forces) const;
+  /// Asks for what `evaluate` will read of stations [begin, end).
+  void prefetch_stations(Index begin, Index end) const;
+  /// Largest node that the stations of this block or of an earlier one touch.
+  Index farthest_node(Index block) const { return farthest_node_[block]; }
+  /// Breaks the exceeded links among [begin, end). The force of the step of the break becomes the mean of link and what
+  /// follows it: the kick before the break and the one after it, which keeps the energy ledger second order in dt.
+  void break_exceeded(const Field& x, Index begin, Index end, LinkForces& forces, std::vector<Break>& breaks);
+  /// Turns the results of `evaluate` into the force on each station's a (in cx, cy) and b (in dx, dy).
+  void combine(Index begin, Index end, LinkForces& forces) const;
+  /// Adds combined forces to the nodes, one station after the other: the same sum for any number of threads.
+  void scatter(const LinkForces& forces, Index begin, Index end, Field& f) const;
+  /// The same for one side of stations [begin, end), whose results start at `at`.
+  void scatter_a(const LinkForces& forces, Index at, Index begin, Index end, Field& f) const;
+  void scatter_b(const LinkForces& forces, Index at, Index begin, Index end, Field& f) const;
+  Index cell_b(Index station) const { return cell_b_[station]; }
+
+  /// k_n of a link of the sample while it was intact [N/m].
+  double normal_stiffness(Index link) const { return first_normal_stiffness_[link]; }
+  bool breakable() const { return !p_.normal_strength.empty(); }
+  bool intact(Index link) const { return intact_[link] != 0; }
+  const std::vector<std::uint8_t>& intact() const { return intact_; }
+  Index broken() const;
+  void set_break_time(Index link, double time) { break_time_[link] = time; }
+  double break_time(Index link) const { return break_time_[link]; }
+  double mode_mix_of(const Break& event) const;
+  /// A link whose nodes have been pressed past each other (D.n <= 0), if any.
+  std::optional<Index> crushed(const Field& x) const;
+  /// Breaks of the last generic `commit`.
+  const std::vector<Break>& breaks() const { return breaks_; }
+
+ private:
+  struct State;
+  State state(const Field& x, Index link) const;
+  Break broken_at(const Field& x, Index link) const;
+  void add_stations(Index link, bool continues);
+  void remove_stiffness(Index link);
+
+  const Sample& sample_;
+  LinkParameters p_;                               // of intact links; k_n and k_t go to 0 with the break
+  std::vector<double> first_normal_stiffness_;     // k_n while the link was intact [N/m]
+  std::vector<Index> block_begin_, block_middle_;  // stations, per block
+  std::vector<Index> farthest_node_;               // per block
+  // per station
+  std::vector<Index> a_, b_, link_, cell_b_;  // link: -1 where the station carries none
+  // Where a run of stations starts or ends the tangent is one-sided. As wide as an index: flags of a byte make g++ vectorise the
+  // loops 64 stations at a time, which spills its registers and leaves most stations of a block to the scalar remainder.
+  std::vector<Index> first_, last_;
+  std::vector<double> k_n_, k_t_, offset_n_, offset_t_;
+  std::vector<double> inverse_strength_n_, inverse_strength_t_;  // [1/N]; empty: links never break
+  std::vector<Index> station_;                                   // of each link of the sample
+  // per link of the sample
+  std::vector<std::uint8_t> intact_;
+  std::vector<double> break_time_;  // [s], -1 while intact; empty: links never break
+  std::vector<Break> breaks_;
+};
+
+}  // namespace lamella
