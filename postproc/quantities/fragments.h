@@ -1,0 +1,33 @@
+// Which cells still hold together: components of shells joined by intact links.
+#pragma once
+#include <vector>
+
+#include "postproc/frame_view.h"
+
+namespace lamella {
+
+struct Fragments {
+  std::vector<std::int32_t> id;  // per cell; 0 is the fragment of most cells, ties by the lowest cell
+  int count = 0;
+};
+
+Fragments fragments(const FrameView& view);
+
+/// Sides of the box across `axis` (0: left and right, 1: bottom and top).
+struct SidePair {
+  std::uint8_t low, high;
+};
+inline SidePair sides_across(int axis) { return axis == 0 ? SidePair{kLeft, kRight} : SidePair{kBottom, kTop}; }
+
+/// Bits of the sides that each cell's nodes belong to.
+std::vector<std::uint8_t> cell_sides(const Sample& sample);
+
+/// True when no path of shells and intact links joins the two sides across `axis`, each side counted as one piece.
+/// False when the sample has no cells at one of them.
+bool separated(const FrameView& view, int axis);
+
+/// Cracks that cross the tissue: none while it is not separated; else one, and one more for every fragment that lies between
+/// the grips, from one free side to the other.
+int through_cracks(const FrameView& view, const Fragments& pieces, int axis);
+
+}  // namespace lamella
