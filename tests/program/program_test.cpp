@@ -1,0 +1,117 @@
+// The program does what its help says.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "generator/sample/scene.h"
+#include "tests/program/program.h"
+#include "tests/support/temporary_folder.h"
+
+namespace lamella {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+class program : public testing::Test {
+ protected:
+  TemporaryFolder folder;
+  std::string scene = write_file(folder / "scene.toml", kHoneycomb);
+  std::string at(const std::string& name) const { return (folder / name).string(); }
+};
+
+TEST_F(program, help_shows_an_example_for_each_subcommand) {
+  EXPECT_THAT(lamella_program("--help").said, HasSubstr("lamella run scene.toml -o results"));
+  for (const std::string name : {"run", "generate", "simulate", "post", "describe", "check"}) {
+    const Outcome help = lamella_program(name + " --help");
+    EXPECT_EQ(help.status, 0);
+    EXPECT_THAT(help.said, HasSubstr("Example:\n  lamella " + name));
+  }
+}
+
+TEST_F(program, describe_prints_the_rows) {
+  EXPECT_EQ(lamella_program("describe").said, describe_scene());
+  EXPECT_EQ(lamella_program("describe --markdown").said, scene_reference());
+}
+
+TEST_F(program, check_writes_nothing_and_says_what_would_be_modelled) {
+  const Outcome check = lamella_program("check " + scene);
+  EXPECT_EQ(check.status, 0) << check.said;
+  EXPECT_THAT(check.said, AllOf(HasSubstr("scene.toml: fine"), HasSubstr("9 cells")));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), std::filesystem::directory_iterator()),
+            1);
+}
+
+TEST_F(program, run_is_generate_simulate_and_post) {
+  const Outcome run = lamella_program("run " + scene + " -o " + at("all"));
+  ASSERT_EQ(run.status, 0) << run.said;
+  for (const char* name : {"sample.h5", "trajectory.h5", "cells.pvd", "summary.json", "response.csv", "report.html"})
+    EXPECT_TRUE(std::filesystem::exists(folder / "all" / name)) << name;
+  EXPECT_THAT(run.said, Not(HasSubstr("\r"))) << "output to a file has plain lines";
+
+  ASSERT_EQ(lamella_program("generate " + scene + " -q -o " + at("sample.h5")).said, "");
+  ASSERT_EQ(
+      lamella_program("simulate " + scene + " -q --sample " + at("sample.h5") + " -o " + at("trajectory.h5")).said, "");
+  ASSERT_EQ(lamella_program("post " + at("trajectory.h5") + " -q -o " + at("parts")).said, "");
+  EXPECT_EQ(read_file(folder / "parts" / "response.csv"), read_file(folder / "all" / "response.csv"));
+}
+
+TEST_F(program, settings_and_seed_reach_the_sample) {
+  ASSERT_EQ(lamella_program("generate " + scene + " -q -o " + at("a.h5") + " --set sample.columns=5 --seed 42").status,
+            0);
+  const Outcome check = lamella_program("generate " + scene + " -o " + at("b.h5") + " --set sample.columns=5");
+  EXPECT_THAT(check.said, HasSubstr("15 cells"));
+}
+
+TEST_F(program, an_interrupted_run_resumes_to_the_same_result) {
+  const std::string longer = " --set output.response=2000 --set output.frames=40 --set loading.strain_rate=200";
+  ASSERT_EQ(lamella_program("run " + scene + longer + " -q -o " + at("whole")).status, 0);
+  const Outcome cut = shell("timeout --signal=INT 0.5 " + kProgram + " run " + scene + longer + " -q -o " + at("cut"));
+  if (std::filesystem::exists(folder / "cut" / "summary.json")) GTEST_SKIP() << "the run was over before the interrupt";
+  EXPECT_THAT(cut.said, HasSubstr("interrupted"));
+  const Outcome resumed = lamella_program("run " + scene + longer + " -q --resume -o " + at("cut"));
+  ASSERT_EQ(resumed.status, 0) << resumed.said;
+  EXPECT_EQ(read_file(folder / "cut" / "response.csv"), read_file(folder / "whole" / "response.csv"));
+}
+
+TEST_F(program, resuming_with_another_scene_is_refused) {
+  ASSERT_EQ(lamella_program("run " + scene + " -q -o " + at("out")).status, 0);
+  const Outcome outcome = lamella_program("run " + scene + " -q --resume --set loading.strain=0.03 -o " + at("out"));
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.said, HasSubstr("another scene"));
+}
+
+TEST_F(program, an_ensemble_gives_mean_and_deviation_of_every_number) {
+  const Outcome outcome = lamella_program("run " + scene + " -o " + at("many") + " --seeds 4-6 --jobs 2");
+  ASSERT_EQ(outcome.status, 0) << outcome.said;
+  EXPECT_THAT(outcome.said, AllOf(HasSubstr("over 3 runs"), HasSubstr("deviation")));
+  const auto read = [&](const std::string& name) { return nlohmann::json::parse(read_file(folder / "many" / name)); };
+  const auto ensemble = read("ensemble.json");
+  EXPECT_EQ(ensemble["seeds"], (std::vector<int>{4, 5, 6}));
+  // The honeycomb has nothing random: what is not a duration is the same in every run.
+  int compared = 0;
+  const auto single = read("seed_5/summary.json");
+  for (const auto& [name, quantity] : ensemble["quantities"].items()) {
+    const auto dot = name.find('.');
+    if (name.substr(0, dot) == "run") continue;
+    EXPECT_EQ(quantity["runs"], 3) << name;
+    EXPECT_NEAR(quantity["mean"].get<double>(),
+                single[name.substr(0, dot)][name.substr(dot + 1)]["value"].get<double>(),
+                1e-12 * std::abs(quantity["mean"].get<double>()))
+        << name;
+    ++compared;
+  }
+  EXPECT_GT(compared, 5);
+}
+
+TEST_F(program, a_failed_seed_shows_in_the_exit_status) {
+  const Outcome outcome =
+      lamella_program("run " + scene + " -q -o " + at("many") + " --seeds 1-2 --set run.time_step=1");
+  EXPECT_EQ(outcome.status, 3);
+  EXPECT_THAT(outcome.said, AllOf(HasSubstr("seed 1: "), HasSubstr("seed 2: ")));
+}
+
+}  // namespace
+}  // namespace lamella
