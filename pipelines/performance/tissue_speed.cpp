@@ -1,0 +1,123 @@
+// Times the explicit step of a scene, and counts its bytes. Writes one `name value` a line.
+//   tissue_speed speed SCENE STEPS THREADS [section.key=value ...]
+//   tissue_speed memory SCENE [section.key=value ...]
+//   tissue_speed lammps SCENE FOLDER [section.key=value ...]
+#include <fmt/core.h>
+#include <sys/resource.h>
+#include <time.h>
+
+#include <chrono>
+#include <numeric>
+
+#include "generator/generate.h"
+#include "generator/sample/errors.h"
+#include "pipelines/performance/tissue_lammps.h"
+#include "simulator/steppers/velocity_verlet.h"
+
+namespace lamella {
+namespace {
+
+constexpr int kStepsPerRow = 100;  // the default 1000 rows in a run of 100,000 steps
+
+struct Tissue {
+  Scene scene;
+  Sample sample;
+  std::vector<Load> loads;
+
+  Tissue(const char* path, std::vector<std::string> overrides) : scene(read_scene(path, overrides)) {
+    Notes notes;
+    sample = generate(scene, notes);
+    loads = build_loads(sample, stage());
+    for (Load& load : loads) load.factor = 1;
+  }
+  const Stage& stage() const { return scene.stages.front(); }
+};
+
+/// Processor time of all threads [s]: what the wall clock shows on one thread of an idle machine.
+double processor_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+double peak_megabytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+/// Steps as a run does: one in kStepsPerRow is a row, with the energies of all terms and the ledger.
+void time_steps(Tissue& tissue, int steps, int threads) {
+  State state{Field(tissue.sample.nodes()), Field(tissue.sample.nodes()), 0, 0};
+  for (Index i = 0; i < tissue.sample.nodes(); ++i) state.x.set(i, tissue.sample.x[i]);
+  const auto model = build_model(tissue.sample, tissue.stage(), state.x);
+  if (model->contacts) model->contacts->update_candidates(state.x);
+  VelocityVerlet stepper(*model, tissue.loads, state, threads);
+  const double dt = tissue.stage().run.time_step.value();
+
+  double energy_at_start = 0, residual = 0, largest_work = 0;
+  const auto start = std::chrono::steady_clock::now();
+  const double processor_start = processor_seconds();
+  for (int n = 0; n < steps; ++n) {
+    if (n % kStepsPerRow != 0) {
+      stepper.step(dt, dt);
+      continue;
+    }
+    double energy = 0;
+    for (const Term* term : model->terms()) energy += term->energy(state.x);
+    const Measurement m = stepper.measured_step(dt, dt, nullptr);
+    const double out = energy + m.kinetic + m.works.damping + m.works.fracture;
+    if (n == 0) energy_at_start = out - m.works.loads;
+    largest_work = std::max(largest_work, std::abs(m.works.loads));
+    residual = std::max(residual, std::abs(m.works.loads - out + energy_at_start));
+  }
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double processor = processor_seconds() - processor_start;
+  fmt::print("nodes {}\nsteps {}\nseconds {:.6g}\nprocessor_seconds {:.6g}\n", tissue.sample.nodes(), steps, seconds,
+             processor);
+  fmt::print("broken_links {}\nledger_residual {:.3g}\npeak_megabytes {:.1f}\n", model->links->broken(),
+             largest_work > 0 ? residual / largest_work : 0.0, peak_megabytes());
+}
+
+void count_bytes(const Tissue& tissue) {
+  Field x(tissue.sample.nodes());
+  for (Index i = 0; i < tissue.sample.nodes(); ++i) x.set(i, tissue.sample.x[i]);
+  const auto model = build_model(tissue.sample, tissue.stage(), x);
+  if (model->contacts) model->contacts->update_candidates(x);
+  const double nodes = tissue.sample.nodes();
+  fmt::print("positions,_velocities,_forces {:.1f}\n", 6.0 * sizeof(double));
+  fmt::print("masses {:.1f}\n", 2.0 * sizeof(double));
+  for (const Term* term : model->terms())
+    fmt::print("{} {:.1f}\n", term->name(), static_cast<double>(term->bytes()) / nodes);
+}
+
+int run(int count, char** arguments) {
+  const std::string what = count > 2 ? arguments[1] : "";
+  const int fixed = what == "speed" ? 5 : what == "lammps" ? 4 : what == "memory" ? 3 : count + 1;
+  if (count < fixed) {
+    fmt::print(stderr,
+               "tissue_speed: speed SCENE STEPS THREADS | memory SCENE | lammps SCENE FOLDER; then key=value\n");
+    return 2;
+  }
+  Tissue tissue(arguments[2], {arguments + fixed, arguments + count});
+  if (what == "speed") time_steps(tissue, std::stoi(arguments[3]), std::stoi(arguments[4]));
+  if (what == "memory") count_bytes(tissue);
+  if (what == "lammps") {
+    const std::filesystem::path folder = arguments[3];
+    write_lammps_data(tissue.sample, tissue.loads, folder / "tissue.data");
+    write_lammps_parameters(tissue.sample, tissue.stage(), folder / "tissue.parameters");
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace lamella
+
+int main(int count, char** arguments) {
+  try {
+    return lamella::run(count, arguments);
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "tissue_speed: {}\n", e.what());
+    return 2;
+  }
+}
