@@ -18,7 +18,7 @@ struct Outcome {
 };
 
 inline Outcome shell(const std::string& command) {
-  FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
+  FILE* pipe = ::popen(("{ " + command + "; } 2>&1").c_str(), "r");
   if (!pipe) throw std::runtime_error("cannot start a shell");
   Outcome outcome;
   std::array<char, 4096> buffer;
