@@ -11,6 +11,7 @@
 #include "postproc/output_file.h"
 #include "postproc/pictures.h"
 #include "postproc/quantities/cell_shape.h"
+#include "postproc/quantities/fragments.h"
 #include "postproc/report.h"
 #include "postproc/summarise.h"
 #include "postproc/view_script.h"
@@ -93,6 +94,8 @@ class Post {
     const Frame last = frame(reader_.frames() - 1);
     const FrameView last_view(reader_.sample(), last);
     facts_.last = &last_view;
+    if (facts_.setup && last_view.has("link_intact") && separated(last_view, facts_.setup->axis))
+      fail_at_separation(facts_.constants, facts_.curve);
     if (last_view.has("link_intact")) facts_.cracks = finder_->find(last_view);
     result_.summary = summarise(facts_);
     if (options_.pictures) draw();

@@ -160,7 +160,7 @@ void draw_chart(Canvas& canvas, const Box& page, const Chart& chart) {
       place -= canvas.text_width((*c)->label, kLegendText) + kLegendGap;
       canvas.line({{place - kLegendLine, base - 3.5}, {place, base - 3.5}},
                   {(*c)->style.colour, 2, (*c)->style.dashes});
-      place -= kLegendSpace;
+      place -= kLegendLine + kLegendSpace;
     }
   }
 }

@@ -129,6 +129,12 @@ MaterialConstants material_constants(const LoadCurve& curve, const TestSetup& se
   return constants;
 }
 
+void fail_at_separation(MaterialConstants& constants, const LoadCurve& curve) {
+  if (constants.strain_at_failure || curve.strain.empty()) return;
+  constants.strain_at_failure = curve.strain.back();
+  constants.time_at_failure = curve.time.back();
+}
+
 double lateral_strain(const Sample& sample, const std::vector<Vec2>& x, int axis) {
   const int across = 1 - axis;
   double low = std::numeric_limits<double>::max(), high = -low;

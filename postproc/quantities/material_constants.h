@@ -55,6 +55,10 @@ struct MaterialConstants {
 MaterialConstants material_constants(const LoadCurve& curve, const TestSetup& setup, const std::vector<Event>& events,
                                      const std::vector<Vec2>& lateral);
 
+/// For a sample that is in two at the end of the curve: it has failed there, if the stress did not say so before (a run that ends
+/// with the separation still shows the inertia of the pieces).
+void fail_at_separation(MaterialConstants& constants, const LoadCurve& curve);
+
 /// Mean strain across the axis: slope of a straight line through the lateral displacements of the cells' centroids against their
 /// places at rest, over the cells in the middle half of the gauge length (where the grips' hold is not felt).
 double lateral_strain(const Sample& sample, const std::vector<Vec2>& x, int axis);

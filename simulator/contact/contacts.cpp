@@ -356,9 +356,21 @@ Index Contacts::list_pair(Index node, Index cell) {
   return static_cast<Index>(k);
 }
 
-void Contacts::release(Index l, const Field& x, double f_t) {
+double Contacts::pressing_across(Index l, const Field& x) const {
+  const Link& link = sample_.links[l];
+  double sum = 0;
+  for (const auto& [node, cell] : {std::pair{link.a, cell_of_[link.b]}, std::pair{link.b, cell_of_[link.a]}})
+    if (const auto k = place_of({node, cell, 0, 0})) {
+      const Touch t = touch(list_, list_.pairs[*k], x);
+      sum += t.k * t.overlap.energy;
+    }
+  return sum;
+}
+
+double Contacts::release(Index l, const Field& x, double f_t) {
   const Link& link = sample_.links[l];
   linked_.set_intact(l, 0);
+  double held = 0;
   for (const auto& [node, cell] : {std::pair{link.a, cell_of_[link.b]}, std::pair{link.b, cell_of_[link.a]}}) {
     const Index k = list_pair(node, cell);
     if (p_.friction == 0) continue;
@@ -370,7 +382,9 @@ void Contacts::release(Index l, const Field& x, double f_t) {
     spring_[k] = next_spring(pair, touch(list_, pair, x), x, k_t > 0 ? 0.5 * f_t / k_t : 0.0, clipped);
     spring_[k].force = k_t * spring_[k].stretch;
     trial_[k] = spring_[k];
+    held += 0.5 * k_t * spring_[k].stretch * spring_[k].stretch;
   }
+  return held;
 }
 
 }  // namespace lamella

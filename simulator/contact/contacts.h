@@ -68,8 +68,11 @@ class Contacts final : public Term {
   void set_intact(Index link);
   /// What the two nodes of this link press each other's cell with, instead of their own k_n [N/m].
   void set_pair_stiffness(Index link, double k_n);
-  /// The link is gone: from now on contact, whose friction springs start at f_t (clipped to mu f_n), half on each side.
-  void release(Index link, const Field& x, double f_t);
+  /// The link is gone: from now on contact, whose friction springs start at f_t (clipped to mu f_n), half on each side. Returns what
+  /// these springs hold [J].
+  double release(Index link, const Field& x, double f_t);
+  /// With what energy the two nodes of this link press each other's cell at x, by the rules as they are now [J].
+  double pressing_across(Index link, const Field& x) const;
 
   /// A node inside a closed cell where it was not at the beginning, or a wall across a chain: an unsigned distance pushes the wrong way.
   std::optional<std::string> fault(const Field& x) const;

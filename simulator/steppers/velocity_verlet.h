@@ -76,6 +76,7 @@ class VelocityVerlet {
   void prefetch_block(Index block) const;
   Works works_at_start() const;
   double dropped_kinetic(const std::vector<Break>& breaks, std::size_t first, double kick) const;
+  double hand_over(const Break& event, double dt);
 
   Model& model_;
   std::vector<Load>& loads_;

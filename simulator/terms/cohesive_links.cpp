@@ -188,14 +188,24 @@ Break CohesiveLinks::broken_at(const Field& x, Index l) const {
   event.f_n = s.f_n, event.f_t = s.f_t;
   event.position = 0.5 * (x.at(sample_.links[l].a) + x.at(sample_.links[l].b));
   event.energy = 0.5 * (k_n > 0 ? s.f_n * s.f_n / k_n : 0.0) + 0.5 * (k_t > 0 ? s.f_t * s.f_t / k_t : 0.0);
-  if (p_.contact_after && s.f_n < 0) {  // a pressed pair keeps its normal force: contact takes over what the link held
-    event.energy -= 0.5 * s.f_n * s.f_n / k_n;
-    if (p_.friction > 0) {
-      event.friction_force = std::clamp(s.f_t, p_.friction * s.f_n, -p_.friction * s.f_n);
-      event.energy -= 0.5 * event.friction_force * event.friction_force / (p_.tangential_ratio * k_n);
-    }
-  }
+  // A pressed pair keeps its normal force: contact takes over what the link held.
+  if (p_.contact_after && s.f_n < 0 && p_.friction > 0)
+    event.friction_force = std::clamp(s.f_t, p_.friction * s.f_n, -p_.friction * s.f_n);
+  event.energy -= left_to_contact(event, x) + left_to_friction(event);
   return event;
+}
+
+double CohesiveLinks::left_to_contact(const Break& event, const Field& x) const {
+  if (!p_.contact_after || event.f_n >= 0) return 0;
+  const State s = state(x, event.link);
+  const double closed = std::min(0.0, s.d.dot(s.n) - sample_.links[event.link].offset_n);
+  return 0.5 * first_normal_stiffness_[event.link] * closed * closed;
+}
+
+double CohesiveLinks::left_to_friction(const Break& event) const {
+  if (event.friction_force == 0) return 0;
+  return 0.5 * event.friction_force * event.friction_force /
+         (p_.tangential_ratio * first_normal_stiffness_[event.link]);
 }
 
 void CohesiveLinks::remove_stiffness(Index l) {

@@ -93,6 +93,11 @@ class CohesiveLinks final : public Term {
   void set_break_time(Index link, double time) { break_time_[link] = time; }
   double break_time(Index link) const { return break_time_[link]; }
   double mode_mix_of(const Break& event) const;
+  /// What the pair's contact would hold at x if it began where the link was free of force: what the energy of the break leaves to
+  /// contact in normal direction [J].
+  double left_to_contact(const Break& event, const Field& x) const;
+  /// The same in the friction springs, at the break [J].
+  double left_to_friction(const Break& event) const;
   /// A link whose nodes have been pressed past each other (D.n <= 0), if any.
   std::optional<Index> crushed(const Field& x) const;
   /// Breaks of the last generic `commit`.

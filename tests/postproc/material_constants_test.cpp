@@ -53,6 +53,18 @@ TEST(MaterialConstants, a_test_that_does_not_fail_says_so) {
   EXPECT_FALSE(material_constants(curve, kSetup, {}, {}).strain_at_failure);
 }
 
+TEST(MaterialConstants, a_sample_in_two_has_failed_at_the_latest_where_the_curve_ends) {
+  LoadCurve curve = triangle();
+  curve.time.resize(150), curve.strain.resize(150), curve.stress.resize(150);
+  MaterialConstants m = material_constants(curve, kSetup, {}, {});
+  fail_at_separation(m, curve);
+  EXPECT_EQ(m.strain_at_failure, curve.strain.back());
+  m = material_constants(triangle(), kSetup, {}, {});
+  const auto by_stress = m.strain_at_failure;
+  fail_at_separation(m, triangle());
+  EXPECT_EQ(m.strain_at_failure, by_stress);
+}
+
 TEST(MaterialConstants, compression_counts_positive) {
   TestSetup setup = kSetup;
   setup.kind = "compression";
