@@ -46,8 +46,10 @@ void add_test(Summary& summary, const SummaryInputs& facts) {
   summary.add("test", {"strain_at_peak", m.strain_at_peak, "1",
                        "engineering strain of the gauge length at that stress." + sign});
   if (m.strain_at_failure)
-    summary.add("test", {"strain_at_failure", *m.strain_at_failure, "1",
-                         "first strain after the peak at which the stress is below 20 % of it, or at which the sample is in two"});
+    summary.add(
+        "test",
+        {"strain_at_failure", *m.strain_at_failure, "1",
+         "first strain after the peak at which the stress is below 20 % of it, or at which the sample is in two"});
   summary.add("test", {"work_of_fracture_per_area", m.work_per_area, "J/m2",
                        std::string("integral of nominal stress over strain, times the gauge length, up to ") +
                            (m.strain_at_failure ? "failure" : "the end (the sample has not failed)") +

@@ -27,21 +27,21 @@ struct SizesScene {
 
 /// [sample.packing]
 struct PackingScene {
-  int count = 400;                 // number of disks
-  double fraction = 0.81;          // area of the disks over area of the box [1]
-  std::string boundary = "walls";  // walls | periodic
-  bool jammed = false;             // compress until jammed, whatever the fraction
-  std::string file;                // CSV x,y,r instead of a packing of our own
+  int count = 400;                   // number of disks
+  double fraction = 0.81;            // area of the disks over area of the box [1]
+  std::string boundary = "walls";    // walls | periodic
+  bool jammed = false;               // compress until jammed, whatever the fraction
+  std::string file;                  // CSV x,y,r instead of a packing of our own
   std::string duplicates = "error";  // error | keep_first
 };
 
 /// [sample.walls]: from tiles to shells of mass points.
 struct WallsScene {
-  double spacing = 0;        // asked distance of mass points [m]; 0: wall length / segments
-  int segments = 0;          // asked segments on a wall of mean length (when spacing is 0)
-  double weld = 0.05;        // edges below this fraction of the mean edge are welded to a point [1]
-  std::string links = "all"; // all | ends | none
-  double gap = 0;            // extra distance between facing outlines [m]; facing points lie at 2 r + gap
+  double spacing = 0;         // asked distance of mass points [m]; 0: wall length / segments
+  int segments = 0;           // asked segments on a wall of mean length (when spacing is 0)
+  double weld = 0.05;         // edges below this fraction of the mean edge are welded to a point [1]
+  std::string links = "all";  // all | ends | none
+  double gap = 0;             // extra distance between facing outlines [m]; facing points lie at 2 r + gap
 };
 
 /// [sample.notch]: cells and links that a cut takes away.
@@ -54,21 +54,22 @@ struct NotchScene {
 struct ShapeScene {
   std::string kind = "chain";  // chain | plate | box | ring | polygon
   std::string group = "cells";
-  Vec2 from = Vec2::Zero(), to = Vec2::Zero();  // ends of a chain or plate; corners of a box (an open shell that holds things) [m]
-  Vec2 centre = Vec2::Zero();                   // ring [m]
-  double size = 0;                              // radius of a ring's vertices [m]
+  Vec2 from = Vec2::Zero(),
+       to = Vec2::Zero();      // ends of a chain or plate; corners of a box (an open shell that holds things) [m]
+  Vec2 centre = Vec2::Zero();  // ring [m]
+  double size = 0;             // radius of a ring's vertices [m]
   int segments = 0;
-  double rotation = 0;                          // ring: angle of its first vertex [rad]
-  std::vector<Vec2> points;                     // polygon [m]
-  bool open = false;                            // polygon: an open chain
-  std::string clamp = "none";                   // chain: none | start | end | both: a ghost segment and half a hinge there
-  std::string clamp_hinge = "half";             // half | full (the naive clamp)
+  double rotation = 0;               // ring: angle of its first vertex [rad]
+  std::vector<Vec2> points;          // polygon [m]
+  bool open = false;                 // polygon: an open chain
+  std::string clamp = "none";        // chain: none | start | end | both: a ghost segment and half a hinge there
+  std::string clamp_hinge = "half";  // half | full (the naive clamp)
 };
 
 /// [sample]
 struct SampleScene {
-  std::string kind = "tissue";  // tissue | rings | honeycomb | polygons | shapes
-  double width = 0, height = 0; // of the box [m]; 0: from the disks' sizes, or from the polygons
+  std::string kind = "tissue";   // tissue | rings | honeycomb | polygons | shapes
+  double width = 0, height = 0;  // of the box [m]; 0: from the disks' sizes, or from the polygons
   SizesScene sizes;
   PackingScene packing;
   WallsScene walls;
@@ -77,13 +78,13 @@ struct SampleScene {
   int ring_nodes = 40;
   // honeycomb: regular hexagons of side `side`, `columns` x `rows`; orientation: which walls lie along x
   int columns = 0, rows = 0;
-  double side = 0;                        // [m]
-  std::string orientation = "pointy";     // pointy: two walls along y; flat: two walls along x
+  double side = 0;                     // [m]
+  std::string orientation = "pointy";  // pointy: two walls along y; flat: two walls along x
   // polygons: a tissue from elsewhere
-  std::string file;                       // text, `x y cell` a line
-  std::string outlines = "shared";        // shared | separate
-  double facing_tolerance = 0;            // separate: largest distance of facing centre lines [m]; 0: 2 r + 10 %
-  double scale = 1;                       // metres per unit of the file
+  std::string file;                 // text, `x y cell` a line
+  std::string outlines = "shared";  // shared | separate
+  double facing_tolerance = 0;      // separate: largest distance of facing centre lines [m]; 0: 2 r + 10 %
+  double scale = 1;                 // metres per unit of the file
   std::vector<ShapeScene> shapes;
 };
 
@@ -91,52 +92,53 @@ struct SampleScene {
 
 /// [cells.core]
 struct CoreScene {
-  std::optional<double> modulus;         // K [Pa]
-  std::optional<double> stiffness_ratio; // eta = K / (E' h / 2 R), R from the rest area; instead of modulus
-  double pressure = 0;                   // p0: over-pressure at rest area [Pa]
-  bool drained = false;                  // pressure does not depend on the area
-  std::vector<Vec2> pressure_history;    // (time [s], pressure [Pa]) pairs, linear between; drained only
-  double density = 0;                    // of the core, its mass shared out to the nodes [kg/m3]
+  std::optional<double> modulus;          // K [Pa]
+  std::optional<double> stiffness_ratio;  // eta = K / (E' h / 2 R), R from the rest area; instead of modulus
+  double pressure = 0;                    // p0: over-pressure at rest area [Pa]
+  bool drained = false;                   // pressure does not depend on the area
+  std::vector<Vec2> pressure_history;     // (time [s], pressure [Pa]) pairs, linear between; drained only
+  double density = 0;                     // of the core, its mass shared out to the nodes [kg/m3]
 };
 
 /// [cells], and [cells.NAME] for the group NAME, which inherits what it does not set.
 struct CellScene {
-  double thickness = 0;                  // h [m]
-  double depth = 1;                      // s [m]
-  std::optional<double> radius;          // Minkowski radius r [m]; default h / 2
-  std::string plane = "strain";          // strain | stress
-  std::optional<double> young;           // E [Pa]
-  double poisson = 0;                    // nu
-  std::optional<double> axial_rigidity;  // EA instead of E [N]
-  std::optional<double> bending_rigidity;// EI instead of E [N m2]
-  std::optional<double> density;         // of the wall [kg/m3]
-  std::optional<double> mass_per_length; // of the wall, depth included, instead of density [kg/m]
-  std::optional<double> yield_stress;    // sigma_Y [Pa]: F_Y = h s sigma, M_Y = s h^2 sigma / 4 (2 sigma / sqrt 3 in plane strain)
-  std::optional<double> yield_force;     // F_Y instead [N]
-  std::optional<double> yield_moment;    // M_Y instead [N m]
-  double bar_dashpot = 0;                // axial viscosity: force = c / l * dl/dt, c [N s]
-  double hinge_dashpot = 0;              // moment = c / lt * d(theta)/dt, c [N m2 s]
+  double thickness = 0;                    // h [m]
+  double depth = 1;                        // s [m]
+  std::optional<double> radius;            // Minkowski radius r [m]; default h / 2
+  std::string plane = "strain";            // strain | stress
+  std::optional<double> young;             // E [Pa]
+  double poisson = 0;                      // nu
+  std::optional<double> axial_rigidity;    // EA instead of E [N]
+  std::optional<double> bending_rigidity;  // EI instead of E [N m2]
+  std::optional<double> density;           // of the wall [kg/m3]
+  std::optional<double> mass_per_length;   // of the wall, depth included, instead of density [kg/m]
+  std::optional<double>
+      yield_stress;  // sigma_Y [Pa]: F_Y = h s sigma, M_Y = s h^2 sigma / 4 (2 sigma / sqrt 3 in plane strain)
+  std::optional<double> yield_force;   // F_Y instead [N]
+  std::optional<double> yield_moment;  // M_Y instead [N m]
+  double bar_dashpot = 0;              // axial viscosity: force = c / l * dl/dt, c [N s]
+  double hinge_dashpot = 0;            // moment = c / lt * d(theta)/dt, c [N m2 s]
   std::optional<CoreScene> core;
-  int line = 0;                          // where the section stands, for messages
+  int line = 0;  // where the section stands, for messages
 
   // Derived. Both throw SceneError when neither way of giving them is present.
-  double plane_modulus() const;          // E' [Pa]
-  double axial() const;                  // EA [N]
-  double bending() const;                // EI [N m2]
-  double line_density() const;           // mass of the wall per length [kg/m]
-  double outline_radius() const;         // r [m]
+  double plane_modulus() const;               // E' [Pa]
+  double axial() const;                       // EA [N]
+  double bending() const;                     // EI [N m2]
+  double line_density() const;                // mass of the wall per length [kg/m]
+  double outline_radius() const;              // r [m]
   std::optional<double> bar_yield() const;    // F_Y [N]
   std::optional<double> hinge_yield() const;  // M_Y [N m]
 };
 
 /// [links], and [links.NAME] for links that touch the group NAME.
 struct LinkScene {
-  std::string per = "length";            // length: N/m2, N/m | link: N/m, N
-  double normal_stiffness = 0;           // k_n
-  double tangential_stiffness = 0;       // k_t
-  std::optional<double> normal_strength; // |f_n0|; absent: never breaks
+  std::string per = "length";                 // length: N/m2, N/m | link: N/m, N
+  double normal_stiffness = 0;                // k_n
+  double tangential_stiffness = 0;            // k_t
+  std::optional<double> normal_strength;      // |f_n0|; absent: never breaks
   std::optional<double> tangential_strength;  // f_t0
-  double exponent = 2;                   // alpha
+  double exponent = 2;                        // alpha
   int line = 0;
 };
 
@@ -150,75 +152,79 @@ struct ContactScene {
   int line = 0;
 };
 
-struct GravityScene { Vec2 acceleration = Vec2::Zero(); };   // [gravity] [m/s2]
-struct DragScene { double rate = 0; };                       // [drag] f = -rate m v [1/s]
+struct GravityScene {
+  Vec2 acceleration = Vec2::Zero();
+};  // [gravity] [m/s2]
+struct DragScene {
+  double rate = 0;
+};  // [drag] f = -rate m v [1/s]
 
 // ---- loading ------------------------------------------------------------------------------------------------------
 
 /// Which nodes: exactly one of the ways is used.
 struct Selection {
-  std::string side;              // left | right | bottom | top
-  std::optional<Box> box;        // nodes inside [m]
-  std::string group;             // all nodes of the group's cells
-  std::vector<int> cells;        // all nodes of these cells
-  std::vector<int> nodes;        // these nodes
-  std::string end;               // start | end | clamp_start | clamp_end | middle of the chains of `group` ("" group: every chain)
+  std::string side;        // left | right | bottom | top
+  std::optional<Box> box;  // nodes inside [m]
+  std::string group;       // all nodes of the group's cells
+  std::vector<int> cells;  // all nodes of these cells
+  std::vector<int> nodes;  // these nodes
+  std::string end;  // start | end | clamp_start | clamp_end | middle of the chains of `group` ("" group: every chain)
 };
 
 /// [[loads]]: prescribed velocity or force of a group of nodes, per component. What is not given stays free.
 struct LoadScene {
   std::string name;
   Selection nodes;
-  std::optional<double> velocity_x, velocity_y;  // [m/s]; 0 holds
-  std::optional<double> force_x, force_y;        // total on the group, shared equally [N]
+  std::optional<double> velocity_x, velocity_y;      // [m/s]; 0 holds
+  std::optional<double> force_x, force_y;            // total on the group, shared equally [N]
   std::optional<double> line_force_x, line_force_y;  // per length of wall [N/m]
-  double ramp = 0;                               // time to reach the full value, smoothly [s]
+  double ramp = 0;                                   // time to reach the full value, smoothly [s]
   int line = 0;
 };
 
 /// [loading]: the two grips of a test, in one section. Strain is engineering, tension and opening positive.
 struct LoadingScene {
-  std::string kind = "tension";      // tension | compression | shear
-  std::string axis = "y";            // direction of the pull: x | y
-  std::optional<double> strain_rate; // [1/s], of the gauge length
-  std::optional<double> speed;       // of the moving grip, instead [m/s]
-  bool both = false;                 // both grips move apart at half the speed
-  bool normal_only = false;          // the grips hold only the component along the axis
-  double ramp_strain = 0;            // the rate grows from 0 to full over this strain, smoothly [1]
-  double strain = 0.5;               // where loading ends [1]
-  bool unload = false;               // then back to strain 0 at the same rate
-  double step = 0;                   // step-then-relax: load by this strain, hold until at rest, and so on; 0: continuous
-  double rest_tolerance = 1e-4;      // relative unbalanced force that counts as rest
+  std::string kind = "tension";       // tension | compression | shear
+  std::string axis = "y";             // direction of the pull: x | y
+  std::optional<double> strain_rate;  // [1/s], of the gauge length
+  std::optional<double> speed;        // of the moving grip, instead [m/s]
+  bool both = false;                  // both grips move apart at half the speed
+  bool normal_only = false;           // the grips hold only the component along the axis
+  double ramp_strain = 0;             // the rate grows from 0 to full over this strain, smoothly [1]
+  double strain = 0.5;                // where loading ends [1]
+  bool unload = false;                // then back to strain 0 at the same rate
+  double step = 0;               // step-then-relax: load by this strain, hold until at rest, and so on; 0: continuous
+  double rest_tolerance = 1e-4;  // relative unbalanced force that counts as rest
   int line = 0;
 };
 
 /// [stop]: a stage ends when the first of these holds.
 struct StopScene {
-  std::optional<double> time;          // of this stage [s]
-  std::optional<double> stress_drop;   // stress below this fraction of its peak so far [1]
-  bool separated = false;              // no path of shells and intact links joins the grips
-  std::optional<double> at_rest;       // relative unbalanced force below this [1]
+  std::optional<double> time;         // of this stage [s]
+  std::optional<double> stress_drop;  // stress below this fraction of its peak so far [1]
+  bool separated = false;             // no path of shells and intact links joins the grips
+  std::optional<double> at_rest;      // relative unbalanced force below this [1]
   int line = 0;
 };
 
 /// [run]
 struct RunScene {
   std::string stepper = "velocity_verlet";
-  double step_fraction = 0.5;          // of the stable limit (row sums) [1]
-  std::optional<double> time_step;     // [s]; refused above the limit
+  double step_fraction = 0.5;       // of the stable limit (row sums) [1]
+  std::optional<double> time_step;  // [s]; refused above the limit
   int threads = 1;
 };
 
 /// [output]
 struct OutputScene {
-  int frames = 50;                     // about equally spaced in time
-  int response = 1000;                 // rows of the response curve, likewise
+  int frames = 50;      // about equally spaced in time
+  int response = 1000;  // rows of the response curve, likewise
 };
 
 /// All that can change from stage to stage.
 struct Stage {
   std::string name = "run";
-  std::string from;                    // stage it continues; "" the previous one
+  std::string from;                        // stage it continues; "" the previous one
   std::map<std::string, CellScene> cells;  // by group; "cells" is the [cells] section itself
   std::map<std::string, LinkScene> links;  // by group; "links" is the [links] section itself; empty: no links at all
   std::optional<ContactScene> contact;
@@ -240,8 +246,8 @@ struct Scene {
   SampleScene sample;
   std::vector<Stage> stages;  // at least one; the sections of the file itself are the first
 
-  std::filesystem::path path;       // of the file; relative paths inside start at its folder
-  std::string text;                 // as read
+  std::filesystem::path path;          // of the file; relative paths inside start at its folder
+  std::string text;                    // as read
   std::vector<std::string> overrides;  // from --set and --seed
 
   std::filesystem::path resolve(const std::string& file) const;  // a file named inside the scene
@@ -251,7 +257,8 @@ struct Scene {
 /// each `file:line: what, and what would be right`; DataError when the file cannot be read.
 Scene read_scene(const std::filesystem::path& path, const std::vector<std::string>& overrides = {});
 /// The same from text; `name` stands for the file in messages.
-Scene parse_scene(const std::string& text, const std::string& name = "scene", const std::vector<std::string>& overrides = {});
+Scene parse_scene(const std::string& text, const std::string& name = "scene",
+                  const std::vector<std::string>& overrides = {});
 
 /// Every parameter, one paragraph each: key, unit, range, default, sentence.
 std::string describe_scene();

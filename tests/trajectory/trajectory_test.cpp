@@ -14,8 +14,8 @@
 
 #include "generator/sample/errors.h"
 #include "generator/sample/h5.h"
-#include "tests/support/samples.h"
 #include "tests/support/messages.h"
+#include "tests/support/samples.h"
 #include "tests/support/temporary_folder.h"
 
 namespace lamella {
