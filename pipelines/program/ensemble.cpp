@@ -1,17 +1,11 @@
 #include "pipelines/program/ensemble.h"
 
 #include <fmt/format.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <csignal>
-#include <cstdio>
 #include <fstream>
-#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -19,6 +13,7 @@
 #include "generator/sample/errors.h"
 #include "pipelines/program/exit_status.h"
 #include "pipelines/program/interrupt.h"
+#include "pipelines/program/workers.h"
 #include "pipelines/program/writable.h"
 #include "postproc/output_file.h"
 
@@ -85,45 +80,6 @@ void write_statistics(const std::vector<Column>& columns, const std::set<std::ui
   write_text_file(folder / "ensemble.json", json.dump(2) + "\n");
   write_text_file(folder / "ensemble.csv", csv + "\n");
 }
-
-/// Processes that run one seed each.
-class Workers {
- public:
-  /// Runs `command` in a child. Forked before the parent has threads, so that the child starts clean.
-  void start(std::uint64_t seed, const std::function<int()>& command) {
-    std::fflush(nullptr);
-    const pid_t child = fork();
-    if (child < 0) throw DataError("cannot start another process: the system has no room for it; use fewer --jobs");
-    if (child == 0) {
-      const int status = command();
-      std::fflush(nullptr);
-      _exit(status);
-    }
-    running_[child] = seed;
-  }
-
-  std::size_t count() const { return running_.size(); }
-
-  /// Waits for one to end; returns its seed and exit status. Passes a request to stop on to all of them.
-  std::pair<std::uint64_t, int> wait() {
-    for (;;) {
-      int status = 0;
-      if (interrupted())
-        for (const auto& [child, seed] : running_) kill(child, SIGTERM);
-      const pid_t child = waitpid(-1, &status, 0);
-      if (child < 0 && errno == EINTR) continue;
-      const auto found = running_.find(child);
-      if (found == running_.end()) continue;
-      const std::uint64_t seed = found->second;
-      running_.erase(found);
-      // A child that a signal ended counts as numerics that gave up, unless the user sent the signal.
-      return {seed, WIFEXITED(status) ? WEXITSTATUS(status) : interrupted() ? 130 : 3};
-    }
-  }
-
- private:
-  std::map<pid_t, std::uint64_t> running_;
-};
 
 }  // namespace
 

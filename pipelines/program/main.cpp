@@ -12,6 +12,7 @@
 #include "pipelines/program/ensemble.h"
 #include "pipelines/program/exit_status.h"
 #include "pipelines/program/interrupt.h"
+#include "pipelines/program/study.h"
 
 namespace lamella {
 namespace {
@@ -23,7 +24,8 @@ struct Arguments {
   std::vector<std::filesystem::path> runs;
   std::string seeds;
   int jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  bool quiet = false, resume = false, markdown = false;
+  StudyArguments study;
+  bool quiet = false, resume = false, markdown = false, small = false;
 
   Verbosity verbosity() const { return quiet ? Verbosity::quiet : Verbosity::normal; }
   Beginning beginning() const { return resume ? Beginning::resumed : Beginning::afresh; }
@@ -104,6 +106,16 @@ int run_program(int argc, char** argv) {
   add_out(compare, a, "Folder of the comparison");
   add_quiet(compare, a);
 
+  CLI::App* study = subcommand(app, "study", "Run studies of pipelines/ and compare their numbers with exact ones",
+                               "lamella study pipelines/beams -o results\n"
+                               "  lamella study pipelines/beams pipelines/friction -o results --page verification.md");
+  study->add_option("FOLDER", a.study.folders, "Folders of studies")->required();
+  study->add_option("-o,--output", a.study.out, "Folder of the results, one folder in it for each study")->required();
+  study->add_option("--page", a.study.page, "One page of all of them (Markdown), its pictures in a folder beside it");
+  study->add_flag("--small", a.small, "Fewer and smaller runs: a few seconds");
+  study->add_option("--jobs", a.study.jobs, "Studies at once")->check(CLI::Range(1, 1024))->capture_default_str();
+  add_quiet(study, a);
+
   CLI::App* describe =
       subcommand(app, "describe", "List every parameter of a scene: unit, range, default", "lamella describe | less");
   describe->add_flag("--markdown", a.markdown, "As the page docs/scene_reference.md");
@@ -134,7 +146,10 @@ int run_program(int argc, char** argv) {
       post_command(a.trajectory, a.out, a.verbosity());
     else if (compare->parsed())
       compare_command(a.runs, a.out, a.verbosity());
-    else if (check->parsed())
+    else if (study->parsed()) {
+      a.study.size = a.small ? StudySize::kSmall : StudySize::kFull;
+      status = study_command(a.study, a.verbosity());
+    } else if (check->parsed())
       check_command(a.scene, a.sample);
     else if (describe->parsed())
       std::fputs((a.markdown ? scene_reference() : describe_scene()).c_str(), stdout);

@@ -27,7 +27,51 @@ struct Range {
     if (high > 0) high += air;
     if (low < 0) low -= air;
   }
+  /// Some air at both ends, of a logarithmic axis.
+  void widen() {
+    if (low > high) low = 0, high = 1;
+    if (high - low < 0.3) low -= 0.15, high += 0.15;
+    const double air = 0.05 * (high - low);
+    low -= air, high += air;
+  }
 };
+
+/// The chart as it is drawn: on a logarithmic axis, logarithms of what is positive.
+Chart scaled(Chart chart) {
+  const auto scale = [&](std::vector<Curve>& curves) {
+    for (Curve& c : curves) {
+      std::vector<double> x, y;
+      for (std::size_t k = 0; k < c.x.size(); ++k) {
+        if (chart.x_scale == Scale::kLogarithmic && !(c.x[k] > 0)) continue;
+        if (chart.y_scale == Scale::kLogarithmic && !(c.y[k] > 0)) continue;
+        x.push_back(chart.x_scale == Scale::kLogarithmic ? std::log10(c.x[k]) : c.x[k]);
+        y.push_back(chart.y_scale == Scale::kLogarithmic ? std::log10(c.y[k]) : c.y[k]);
+      }
+      c.x = std::move(x), c.y = std::move(y);
+    }
+  };
+  scale(chart.curves), scale(chart.right_curves);
+  return chart;
+}
+
+/// Decades, or 1, 2 and 5 in each where there are few of them; as logarithms.
+std::vector<double> decade_ticks(double low, double high) {
+  std::vector<double> ticks;
+  const bool few = high - low < 2.5;
+  const int every = std::max(1, static_cast<int>((high - low) / 8));
+  for (int decade = static_cast<int>(std::floor(low)); decade <= high; decade += few ? 1 : every)
+    for (double lead : {1.0, 2.0, 5.0}) {
+      if (!few && lead > 1) continue;
+      const double at = decade + std::log10(lead);
+      if (at >= low - 1e-9 && at <= high + 1e-9) ticks.push_back(at);
+    }
+  return ticks;
+}
+
+std::string decade_label(double at) {
+  const double value = std::pow(10.0, at);
+  return value >= 0.01 && value < 99999 ? fmt::format("{:.3g}", value) : fmt::format("{:.0e}", value);
+}
 
 constexpr double kLegendRow = 14, kLegendLine = 16, kLegendGap = 5, kLegendSpace = 12;
 const TextStyle kLegendText{.size = 9.5, .anchor = Anchor::kRight};
@@ -82,7 +126,9 @@ ScaledUnit scaled_unit(double largest, const std::string& unit) {
   return {std::pow(10.0, 3 * power), kPrefixes[power + 5] + unit};
 }
 
-void draw_chart(Canvas& canvas, const Box& page, const Chart& chart) {
+void draw_chart(Canvas& canvas, const Box& page, const Chart& given) {
+  const Chart chart = scaled(given);
+  const bool log_x = chart.x_scale == Scale::kLogarithmic, log_y = chart.y_scale == Scale::kLogarithmic;
   const bool two_axes = !chart.right_curves.empty();
   const double right_margin = two_axes ? 60 : 16;
   const auto legend = legend_rows(canvas, chart, page.size().x() - 58 - right_margin);
@@ -91,9 +137,11 @@ void draw_chart(Canvas& canvas, const Box& page, const Chart& chart) {
   Range x, y, right;
   for (const Curve& c : chart.curves) x.take(c.x), y.take(c.y);
   for (const Curve& c : chart.right_curves) x.take(c.x), right.take(c.y);
-  y.round_up(), right.round_up();
+  log_y ? y.widen() : y.round_up();
+  right.round_up();
   if (x.low > x.high) x.low = 0, x.high = 1;
-  if (x.low > 0 && x.low < 0.3 * x.high) x.low = 0;
+  if (log_x) x.widen();
+  if (!log_x && x.low > 0 && x.low < 0.3 * x.high) x.low = 0;
   if (x.low == x.high) x.high = x.low + 1;
   const Vec2 span = plot.size();
   const auto to_page = [&](double at_x, double at_y, const Range& axis) {
@@ -102,16 +150,19 @@ void draw_chart(Canvas& canvas, const Box& page, const Chart& chart) {
   };
 
   const TextStyle tick{.size = 9.5};
-  const std::vector<double> x_ticks = round_ticks(x.low, x.high, 7), y_ticks = round_ticks(y.low, y.high, 6);
+  const std::vector<double> x_ticks = log_x ? decade_ticks(x.low, x.high) : round_ticks(x.low, x.high, 7);
+  const std::vector<double> y_ticks = log_y ? decade_ticks(y.low, y.high) : round_ticks(y.low, y.high, 6);
   for (double v : y_ticks) {
     const Vec2 at = to_page(x.low, v, y);
-    canvas.line({at, {plot.hi.x(), at.y()}}, {v == 0 && y.low < 0 ? kFrame : kGrid, 0.8, {}});
-    canvas.text(at + Vec2(-7, 3.4), tick_label(v, y_ticks), {.size = tick.size, .anchor = Anchor::kRight});
+    canvas.line({at, {plot.hi.x(), at.y()}}, {v == 0 && y.low < 0 && !log_y ? kFrame : kGrid, 0.8, {}});
+    canvas.text(at + Vec2(-7, 3.4), log_y ? decade_label(v) : tick_label(v, y_ticks),
+                {.size = tick.size, .anchor = Anchor::kRight});
   }
   for (double v : x_ticks) {
     const Vec2 at = to_page(v, y.low, y);
     canvas.line({at, at + Vec2(0, 4)}, {kFrame, 0.9, {}});
-    canvas.text(at + Vec2(0, 16), tick_label(v, x_ticks), {.size = tick.size, .anchor = Anchor::kCentre});
+    canvas.text(at + Vec2(0, 16), log_x ? decade_label(v) : tick_label(v, x_ticks),
+                {.size = tick.size, .anchor = Anchor::kCentre});
   }
   canvas.line({plot.lo, {plot.lo.x(), plot.hi.y()}, plot.hi}, {kFrame, 0.9, {}});
   if (two_axes) {
@@ -130,7 +181,9 @@ void draw_chart(Canvas& canvas, const Box& page, const Chart& chart) {
       for (const Curve& c : curves) {
         std::vector<Vec2> points;
         for (std::size_t k = 0; k < c.x.size(); ++k) points.push_back(to_page(c.x[k], c.y[k], axis));
-        canvas.line(points, c.style);
+        if (c.drawn == CurveKind::kLine) canvas.line(points, c.style);
+        if (c.drawn == CurveKind::kDots)
+          for (const Vec2& point : points) canvas.dot(point, 2.6, c.style.colour);
       }
     };
     draw(chart.right_curves, right);
@@ -158,8 +211,11 @@ void draw_chart(Canvas& canvas, const Box& page, const Chart& chart) {
     for (auto c = legend[row].rbegin(); c != legend[row].rend(); ++c) {
       canvas.text({place, base}, (*c)->label, kLegendText);
       place -= canvas.text_width((*c)->label, kLegendText) + kLegendGap;
-      canvas.line({{place - kLegendLine, base - 3.5}, {place, base - 3.5}},
-                  {(*c)->style.colour, 2, (*c)->style.dashes});
+      if ((*c)->drawn == CurveKind::kDots)
+        canvas.dot({place - 0.5 * kLegendLine, base - 3.5}, 2.6, (*c)->style.colour);
+      else
+        canvas.line({{place - kLegendLine, base - 3.5}, {place, base - 3.5}},
+                    {(*c)->style.colour, 2, (*c)->style.dashes});
       place -= kLegendLine + kLegendSpace;
     }
   }

@@ -19,10 +19,13 @@ struct ScaledUnit {
 };
 ScaledUnit scaled_unit(double largest, const std::string& unit);
 
+enum class CurveKind { kLine, kDots };
+
 struct Curve {
   std::vector<double> x, y;
   Style style;
   std::string label;
+  CurveKind drawn = CurveKind::kLine;
 };
 
 struct Mark {
@@ -31,13 +34,17 @@ struct Mark {
   Colour colour;
 };
 
+/// Logarithmic: points that are not positive are left out.
+enum class Scale { kLinear, kLogarithmic };
+
 struct Chart {
   std::string title, x_label, y_label;
-  std::vector<Curve> curves;
-  std::vector<Mark> marks;
+  std::vector<Curve> curves{};
+  std::vector<Mark> marks{};
   // a second axis on the right; unused while it has no curves
-  std::string right_label;
-  std::vector<Curve> right_curves;
+  std::string right_label{};
+  std::vector<Curve> right_curves{};
+  Scale x_scale = Scale::kLinear, y_scale = Scale::kLinear;
 };
 
 void draw_chart(Canvas& canvas, const Box& page, const Chart& chart);

@@ -48,6 +48,17 @@ TEST_F(bad_input, arguments_that_are_not_understood_exit_2) {
   EXPECT_THAT(run(kHoneycomb, "--threads 0"), ends_with(2, "run.threads: 0 is out of range"));
 }
 
+TEST_F(bad_input, folders_that_are_no_studies_are_named_all_at_once) {
+  const std::string out = " -o " + (folder / "out").string();
+  const Outcome outcome = lamella_program("study pipelines/program nowhere/beams" + out);
+  EXPECT_THAT(outcome, ends_with(2, "pipelines/program: is no study; studies are beams"));
+  EXPECT_THAT(outcome, ends_with(2, "nowhere/beams: is not there"));
+  const std::string beams = LAMELLA_SOURCE_DIR "/pipelines/beams";
+  EXPECT_THAT(lamella_program("study " + beams + " " + beams + "/" + out), ends_with(2, "is given twice"));
+  EXPECT_THAT(lamella_program("study " + beams), ends_with(2, "--output is required"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+}
+
 TEST_F(bad_input, a_file_that_is_not_there_or_no_file_exits_4) {
   const std::string absent = (folder / "absent").string(), out = (folder / "out").string();
   EXPECT_THAT(lamella_program("check " + absent), ends_with(4, "absent: no such file"));

@@ -1,0 +1,98 @@
+#include "pipelines/studies/study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "generator/generate.h"
+#include "generator/sample/errors.h"
+#include "postproc/output_file.h"
+
+namespace lamella {
+
+std::vector<double> StudyRun::column(const std::string& name) const {
+  const Response& response = reader.response();
+  const auto at = std::find(response.columns.begin(), response.columns.end(), name);
+  if (at == response.columns.end()) throw DataError(fmt::format("the response has no column '{}'", name));
+  std::vector<double> values;
+  values.reserve(response.rows.size());
+  for (const auto& row : response.rows) values.push_back(row[static_cast<std::size_t>(at - response.columns.begin())]);
+  return values;
+}
+
+std::vector<Vec2> StudyRun::positions(int frame) const {
+  const Frame f = reader.frame(index(frame));
+  return FrameView(reader.sample(), f).x;
+}
+
+std::vector<double> StudyRun::array(const std::string& name, int frame) const {
+  return reader.frame(index(frame)).arrays.doubles(name);
+}
+
+double StudyRun::ledger() const {
+  const auto residuals = column("residual");
+  return *std::max_element(residuals.begin(), residuals.end());
+}
+
+Sample sample_of(const Scene& scene) {
+  Notes notes;
+  Sample sample = generate(scene, notes);
+  const auto violations = check_sample(sample);
+  if (!violations.empty()) throw SceneError(fmt::format("{}: sample: {}", scene.path.string(), violations.front()));
+  return sample;
+}
+
+Scene StudyBench::scene(const std::string& file, const std::vector<std::string>& settings) const {
+  return read_scene(source_ / file, settings);
+}
+
+StudyRun StudyBench::run(const std::string& name, const std::string& file, const std::vector<std::string>& settings) {
+  const Scene s = scene(file, settings);
+  return run(name, sample_of(s), s);
+}
+
+StudyRun StudyBench::run(const std::string& name, const Sample& sample, const Scene& scene) {
+  StudyRun done = attempt(name, sample, scene);
+  if (!done.error.empty()) throw SolverError(fmt::format("{}: {}", name, done.error));
+  return done;
+}
+
+StudyRun StudyBench::attempt(const std::string& name, const std::string& file,
+                             const std::vector<std::string>& settings) {
+  const Scene s = scene(file, settings);
+  return attempt(name, sample_of(s), s);
+}
+
+StudyRun StudyBench::attempt(const std::string& name, const Sample& sample, const Scene& scene) {
+  const std::filesystem::path path = out_ / "runs" / (name + ".h5");
+  make_folder(path.parent_path());
+  SimulateOptions options;
+  options.interrupted = interrupted_;
+  RunFacts facts;
+  std::string error;
+  {
+    TrajectoryWriter writer(path, sample, {});
+    try {
+      facts = simulate(sample, scene, writer, options);
+    } catch (const SolverError& gave_up) {
+      error = gave_up.what();
+    }
+  }
+  if (facts.interrupted) throw Interrupted("interrupted; the study starts anew next time");
+  ++runs_;
+  node_steps_ += static_cast<double>(facts.steps) * sample.nodes();
+  if (say_)
+    say_(fmt::format("  {}: {}; {} steps, {:.2f} s", name, error.empty() ? facts.ended : error, facts.steps,
+                     facts.seconds + facts.frame_seconds));
+  return {facts, error, TrajectoryReader(path)};
+}
+
+const Study* find_study(const std::filesystem::path& folder) {
+  std::filesystem::path path = std::filesystem::absolute(folder).lexically_normal();
+  if (!path.has_filename()) path = path.parent_path();
+  for (const Study& study : studies())
+    if (study.name == path.filename()) return &study;
+  return nullptr;
+}
+
+}  // namespace lamella
