@@ -56,6 +56,20 @@ std::optional<double> CellScene::hinge_yield() const {
   return yield_moment;
 }
 
+void Stage::slow_down() {
+  const double factor = run.slowdown;
+  if (factor == 1) return;
+  const auto divide = [&](std::optional<double>& rate) {
+    if (rate) *rate /= factor;
+  };
+  if (loading) divide(loading->strain_rate), divide(loading->speed);
+  for (LoadScene& load : loads) divide(load.velocity_x), divide(load.velocity_y), load.ramp *= factor;
+  if (stop.time) *stop.time *= factor;
+  for (auto& [group, section] : cells)
+    if (section.core)
+      for (Vec2& point : section.core->pressure_history) point.x() *= factor;
+}
+
 const CellScene& Stage::cell(const std::string& group) const {
   auto found = cells.find(group);
   if (found == cells.end()) found = cells.find("cells");

@@ -212,6 +212,8 @@ struct RunScene {
   std::string stepper = "velocity_verlet";
   double step_fraction = 0.5;       // of the stable limit (row sums) [1]
   std::optional<double> time_step;  // [s]; refused above the limit
+  double slowdown = 1;              // prescribed motions, ramps and times take this many times longer [1]
+  std::optional<double> accuracy;   // accepted error of the largest load [1]
   int threads = 1;
 };
 
@@ -236,6 +238,8 @@ struct Stage {
   RunScene run;
   OutputScene output;
 
+  /// Stretches all that is prescribed in time by run.slowdown; done once, when the scene is read.
+  void slow_down();
   /// Parameters of a group: its own section, else [cells].
   const CellScene& cell(const std::string& group) const;
 };

@@ -664,6 +664,21 @@ const std::vector<Row<RunScene>>& rows() {
        .range = kPositive,
        .sentence = "A fixed one, instead of step_fraction; refused where it is not stable.",
        .fallback = "from step_fraction"},
+      {.key = "slowdown",
+       .member = &S::slowdown,
+       .unit = "1",
+       .range = kPositive,
+       .sentence =
+           "All that is prescribed in time takes this many times longer: velocities and rates are divided by it, "
+           "ramps, histories and stop.time multiplied."},
+      {.key = "accuracy",
+       .member = &S::accuracy,
+       .unit = "1",
+       .range = kInsideFraction,
+       .sentence =
+           "Error of the largest load that is accepted: `lamella run` then chooses slowdown, drag (where the scene "
+           "has no damping) and step_fraction, and says how large the error is by two runs.",
+       .fallback = "as the scene says, error not estimated"},
       {.key = "threads",
        .member = &S::threads,
        .range = between(1, 256),

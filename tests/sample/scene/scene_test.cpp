@@ -184,5 +184,31 @@ TEST(scene, files_named_inside_start_at_the_folder_of_the_scene) {
   EXPECT_EQ(scene.resolve("/data/disks.csv"), "/data/disks.csv");
 }
 
+TEST(scene, a_slowdown_stretches_all_that_is_prescribed_in_time) {
+  const std::string text = kPlate + R"([cells.core]
+drained = true
+pressure_history = [[0, 0], [2, 5]]
+[[loads]]
+name = "push"
+nodes = { group = "plate" }
+velocity_x = 0
+velocity_y = 6
+ramp = 0.5
+[stop]
+time = 4
+[drag]
+rate = 7
+)";
+  const Stage stage = parse_scene(text, "scene", {"run.slowdown=2"}).stages.at(0);
+  EXPECT_DOUBLE_EQ(*stage.loads[0].velocity_y, 3);
+  EXPECT_DOUBLE_EQ(stage.loads[0].ramp, 1);
+  EXPECT_DOUBLE_EQ(*stage.stop.time, 8);
+  EXPECT_DOUBLE_EQ(stage.cell("cells").core->pressure_history[1].x(), 4);
+  EXPECT_DOUBLE_EQ(stage.drag->rate, 7);  // the material stays as it is
+  const Scene pull = fixture("tissue_pull.toml", {"run.slowdown=4"});
+  EXPECT_DOUBLE_EQ(*pull.stages[0].loading->strain_rate, 50);
+  EXPECT_DOUBLE_EQ(pull.stages[0].loading->ramp_strain, 0.01);
+}
+
 }  // namespace
 }  // namespace lamella
