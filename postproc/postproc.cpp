@@ -98,6 +98,7 @@ class Post {
       fail_at_separation(facts_.constants, facts_.curve);
     if (last_view.has("link_intact")) facts_.cracks = finder_->find(last_view);
     result_.summary = summarise(facts_);
+    for (const Quantity& known : options_.accuracy) result_.summary.add("accuracy", known);
     if (options_.pictures) draw();
     write_tables();
     tell(1, "done");

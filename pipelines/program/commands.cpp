@@ -5,6 +5,7 @@
 #include "generator/generate.h"
 #include "generator/sample/errors.h"
 #include "generator/sample/sample_file.h"
+#include "pipelines/program/accurate_run.h"
 #include "pipelines/program/interrupt.h"
 #include "pipelines/program/writable.h"
 #include "postproc/output_file.h"
@@ -116,8 +117,10 @@ bool is_begun(const fs::path& trajectory) {
   return fs::exists(trajectory) || fs::exists(fs::path(trajectory.string() + ".parts"));
 }
 
-void show_to(const fs::path& trajectory, const fs::path& folder, Progress& progress) {
+void show_to(const fs::path& trajectory, const fs::path& folder, Progress& progress,
+             std::vector<Quantity> accuracy = {}) {
   PostOptions options;
+  options.accuracy = std::move(accuracy);
   options.progress = [&](double done, const std::string& what) {
     stop_if_interrupted();
     progress.show(done, what);
@@ -134,6 +137,7 @@ void show_to(const fs::path& trajectory, const fs::path& folder, Progress& progr
 Scene load_scene(const SceneArguments& arguments) {
   std::vector<std::string> settings = arguments.settings;
   if (arguments.seed) settings.push_back(fmt::format("seed={}", *arguments.seed));
+  if (arguments.accuracy) settings.push_back(fmt::format("run.accuracy={}", *arguments.accuracy));
   if (arguments.threads) settings.push_back(fmt::format("run.threads={}", *arguments.threads));
   return read_scene(arguments.scene, settings);
 }
@@ -153,6 +157,8 @@ void simulate_command(const SceneArguments& arguments, const fs::path& sample_pa
                       Beginning beginning, Verbosity verbosity) {
   const Scene scene = load_scene(arguments);
   require_run(scene);
+  if (scene.stages.front().run.accuracy)
+    throw SceneError("run.accuracy: takes several runs; use `lamella run`, or leave it out");
   require_writable_file(out);
   Progress progress(verbosity);
   if (beginning == Beginning::resumed && is_begun(out)) return resume_to(scene, out, progress);
@@ -172,6 +178,9 @@ void run_command(const SceneArguments& arguments, const fs::path& folder, Beginn
   require_writable_folder(folder);
   Progress progress(verbosity);
   const fs::path trajectory = folder / "trajectory.h5";
+  std::vector<Quantity> accuracy;
+  if (beginning == Beginning::resumed && scene.stages.front().run.accuracy)
+    throw SceneError("--resume: a run to an accuracy is several runs, and starts anew; leave --resume out");
   if (beginning == Beginning::resumed && is_begun(trajectory)) {
     resume_to(scene, trajectory, progress);
   } else {
@@ -179,10 +188,22 @@ void run_command(const SceneArguments& arguments, const fs::path& folder, Beginn
     start_up_summary(sample, scene);  // finds what does not fit, before anything on disk is touched
     make_folder(folder);
     write_sample(folder / "sample.h5", sample);
-    simulate_to(sample, scene, trajectory, progress);
+    if (const auto accepted = scene.stages.front().run.accuracy) {
+      say_summary(sample, scene, progress);
+      const auto scene_at = [&](const std::vector<std::string>& settings) {
+        SceneArguments at = arguments;
+        at.settings.insert(at.settings.end(), settings.begin(), settings.end());
+        return load_scene(at);
+      };
+      accuracy = run_to_accuracy(scene_at, sample, *accepted, folder, progress, [&] {
+                   return simulate_options(progress);
+                 }).quantities;
+    } else {
+      simulate_to(sample, scene, trajectory, progress);
+    }
   }
   stop_if_interrupted();
-  show_to(trajectory, folder, progress);
+  show_to(trajectory, folder, progress, accuracy);
 }
 
 void check_command(const SceneArguments& arguments, const fs::path& sample_path) {

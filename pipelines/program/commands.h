@@ -16,9 +16,10 @@ struct SceneArguments {
   std::vector<std::string> settings;  // --set
   std::optional<std::uint64_t> seed;
   std::optional<int> threads;
+  std::optional<std::string> accuracy;  // "1%", "0.01"
 };
 
-/// Reads and validates the scene with --set, --seed and --threads over it.
+/// Reads and validates the scene with --set, --seed, --threads and --accuracy over it.
 Scene load_scene(const SceneArguments& arguments);
 
 enum class Beginning { afresh, resumed };

@@ -68,11 +68,16 @@ int run_program(int argc, char** argv) {
 
   CLI::App* run = subcommand(app, "run", "Generate, simulate and show, all in one folder",
                              "lamella run scene.toml -o results --set loading.strain=0.2\n"
+                             "  lamella run scene.toml -o results --accuracy 1%\n"
                              "  lamella run scene.toml -o results --seeds 1-10 --jobs 2");
   add_scene(run, a)->required();
   add_out(run, a, "Folder of the results");
   add_running(run, a);
   add_quiet(run, a);
+  CLI::Option* accuracy = run->add_option(
+      "--accuracy", a.scene.accuracy,
+      "Error of the largest load that you accept, such as 1%: pace, damping and step are chosen, the error estimated");
+  accuracy->excludes("--resume");
   CLI::Option* seeds =
       run->add_option("--seeds", a.seeds, "A range A-B: one run for each, then mean and deviation")->excludes("--seed");
   run->add_option("--jobs", a.jobs, "Runs at once, with --seeds")

@@ -105,6 +105,37 @@ TEST_F(program, resuming_with_another_scene_is_refused) {
   EXPECT_THAT(outcome.said, HasSubstr("another scene"));
 }
 
+TEST_F(program, a_run_to_an_accuracy_says_how_far_off_it_is) {
+  const std::string elastic = " --set links.normal_strength=1e9 --set links.tangential_strength=1e9";
+  const Outcome run = lamella_program("run " + scene + elastic + " --accuracy 5% -o " + at("five"));
+  ASSERT_EQ(run.status, 0) << run.said;
+  const auto number = [&](const char* key) {
+    const auto summary = nlohmann::json::parse(read_file(folder / "five" / "summary.json"));
+    return summary.at("accuracy").at(key).at("value").get<double>();
+  };
+  EXPECT_EQ(number("accepted_error"), 0.05);
+  const double estimated = number("estimated_error_of_largest_load");
+  EXPECT_LE(estimated, 0.05);
+  const auto table = nlohmann::json::parse(read_file(folder / "five" / "accuracy.json"));
+  ASSERT_GE(table.at("runs").size(), 2u);
+  // The settings that it says it used make the same run, and one eight times slower is nearer the truth.
+  std::string settings = elastic;
+  for (const auto& setting : table["runs"].back()["settings"]) settings += " --set " + setting.get<std::string>();
+  ASSERT_EQ(lamella_program("run " + scene + settings + " -q -o " + at("same")).status, 0);
+  EXPECT_EQ(read_file(folder / "same" / "response.csv"), read_file(folder / "five" / "response.csv"));
+}
+
+TEST_F(program, an_accuracy_that_cannot_be_had_is_an_error) {
+  const Outcome run = lamella_program("run " + scene + " --accuracy 1e-9 -o " + at("out"));
+  EXPECT_EQ(run.status, 3) << run.said;
+  EXPECT_THAT(run.said, HasSubstr("is not reached"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "out" / "trajectory.h5"));
+  for (const char* wrong : {"0", "-1%", "2", "much"})
+    EXPECT_EQ(lamella_program("run " + scene + " --accuracy " + wrong + " -o " + at("not")).status, 2) << wrong;
+  EXPECT_FALSE(std::filesystem::exists(folder / "not"));
+  EXPECT_EQ(lamella_program("simulate " + scene + " --set run.accuracy=0.1 --sample x.h5 -o " + at("t.h5")).status, 2);
+}
+
 TEST_F(program, an_ensemble_gives_mean_and_deviation_of_every_number) {
   const Outcome outcome = lamella_program("run " + scene + " -o " + at("many") + " --seeds 4-6 --jobs 2");
   ASSERT_EQ(outcome.status, 0) << outcome.said;
