@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "generator/sample/errors.h"
@@ -54,7 +55,9 @@ Load from_scene(const Sample& sample, const LoadScene& scene) {
     if (velocity[c]) load.holds[c] = true, load.velocity[c] = *velocity[c];
   const Vec2 total(scene.force_x.value_or(0), scene.force_y.value_or(0));
   const Vec2 line(scene.line_force_x.value_or(0), scene.line_force_y.value_or(0));
-  load.pushes = scene.force_x || scene.force_y || scene.line_force_x || scene.line_force_y;
+  load.pushes_along[0] = scene.force_x || scene.line_force_x;
+  load.pushes_along[1] = scene.force_y || scene.line_force_y;
+  load.pushes = load.pushes_along[0] || load.pushes_along[1];
   if (load.pushes) {
     const auto cell_of = cell_of_node(sample);
     for (Index i : load.nodes) {
@@ -87,7 +90,39 @@ void refuse_contradictions(const Sample& sample, const std::vector<Load>& loads)
   if (!faults.empty()) throw SceneError(std::move(faults));
 }
 
+/// Names may be any text; those of columns are words of letters, digits, '-' and '_'.
+std::string column_word(std::string name) {
+  for (char& c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '_') c = '_';
+  return name;
+}
+
 }  // namespace
+
+std::vector<LoadColumn> load_columns(const std::vector<Load>& loads) {
+  std::vector<LoadColumn> columns;
+  for (std::size_t l = 0; l < loads.size(); ++l) {
+    if (loads[l].grip) continue;
+    const std::string word = column_word(loads[l].name);
+    for (std::size_t k = 0; k < l; ++k)
+      if (!loads[k].grip && column_word(loads[k].name) == word)
+        throw SceneError(
+            fmt::format("loads: '{}' and '{}' would share columns of the response, ..._{}; rename one of them",
+                        loads[k].name, loads[l].name, word));
+    for (int c = 0; c < 2; ++c) {
+      const std::string of = fmt::format("{}_{}", c == 0 ? "x" : "y", word);
+      if (loads[l].holds[c] || loads[l].pushes_along[c]) columns.push_back({"force_" + of, "N", l, c, false});
+      if (loads[l].holds[c]) columns.push_back({"moved_" + of, "m", l, c, true});
+    }
+  }
+  return columns;
+}
+
+double mean_displacement(const Sample& sample, const Field& x, const Load& load, int component) {
+  double sum = 0;
+  for (Index i : load.nodes) sum += x.at(i)[component] - sample.x[i][component];
+  return sum / static_cast<double>(load.nodes.size());
+}
 
 std::vector<Load> build_loads(const Sample& sample, const Stage& stage) {
   std::vector<Load> loads;

@@ -6,6 +6,7 @@
 
 #include "generator/sample/sample.h"
 #include "generator/sample/scene.h"
+#include "simulator/positions.h"
 
 namespace lamella {
 
@@ -14,11 +15,12 @@ struct Load {
   std::vector<Index> nodes;        // ascending
   bool holds[2] = {false, false};  // velocity prescribed, per component
   bool pushes = false;             // force prescribed
-  Vec2 velocity = Vec2::Zero();    // in full [m/s]
-  std::vector<Vec2> force;         // on each node, in full [N]; empty unless `pushes`
-  double ramp = 0;                 // [s]
-  double factor = 1;               // of the full value in this step; set by the driver
-  bool grip = false;               // belongs to [loading]: its factor is the loading's
+  bool pushes_along[2] = {false, false};
+  Vec2 velocity = Vec2::Zero();  // in full [m/s]
+  std::vector<Vec2> force;       // on each node, in full [N]; empty unless `pushes`
+  double ramp = 0;               // [s]
+  double factor = 1;             // of the full value in this step; set by the driver
+  bool grip = false;             // belongs to [loading]: its factor is the loading's
 };
 
 /// Smooth growth from 0 to 1 over [0, 1] with zero slope at both ends: a load that starts without a jolt.
@@ -27,6 +29,19 @@ inline double smooth_ramp(double u) { return u <= 0 ? 0.0 : u >= 1 ? 1.0 : u * u
 /// The loads of a stage: the grips first (fixed one, then moving one), then [[loads]]. Throws SceneError where a node is held
 /// twice in one component, or a selection is empty.
 std::vector<Load> build_loads(const Sample& sample, const Stage& stage);
+
+/// A column of the response that a load of [[loads]] fills (docs/formats.md): force_x_NAME, moved_y_NAME.
+struct LoadColumn {
+  std::string name, unit;
+  std::size_t load = 0;  // of the stage's
+  int component = 0;     // 0 x, 1 y
+  bool displacement = false;
+};
+/// Two columns of each component whose velocity is prescribed, one of each component with a force; none of grips, which have their own.
+/// Throws SceneError where two loads would fill one column.
+std::vector<LoadColumn> load_columns(const std::vector<Load>& loads);
+/// Mean displacement of the load's nodes from the sample [m].
+double mean_displacement(const Sample& sample, const Field& x, const Load& load, int component);
 
 /// Where the grips are: measures of the loading that strain and stress refer to (physics: grips).
 struct Gauge {

@@ -62,6 +62,7 @@ StageRun::StageRun(const Sample& sample, const Scene& scene, int stage, const Ar
   }
   model_ = build_model(sample, stage_, state_.x);
   loads_ = build_loads(sample, stage_);
+  load_columns_ = load_columns(loads_);
   gauge_ = measure_gauge(sample, stage_, loads_);
   if (stage_.loading) course_.emplace(*stage_.loading, gauge_);
   for (Term* term : model_->terms()) term->restore(start);
@@ -129,6 +130,7 @@ void StageRun::columns(std::vector<std::string>& names, std::vector<std::string>
   };
   add("time", "s"), add("stage", "1");
   if (course_) add("strain", "1"), add("stress", "Pa"), add("force_a", "N"), add("force_b", "N");
+  for (const LoadColumn& column : load_columns_) add(column.name, column.unit.c_str());
   for (const Term* term : model_->terms()) add("energy_" + term->name(), "J");
   add("kinetic", "J"), add("work", "J");
   if (model_->drag_rate > 0 || model_->dashpots || model_->contact_damping > 0) add("damping", "J");
@@ -355,6 +357,9 @@ std::string StageRun::run(TrajectoryWriter& writer, const SimulateOptions& optio
     const double energy = std::accumulate(energies.begin(), energies.end(), 0.0);
     if (!std::isfinite(energy))
       throw SolverError(fmt::format("t = {:.6g} s: the elastic energy is no longer a number", time));
+    std::vector<double> moved;
+    for (const LoadColumn& c : load_columns_)
+      moved.push_back(c.displacement ? mean_displacement(sample_, state_.x, loads_[c.load], c.component) : 0.0);
     ArraySet arrays, restart;
     Field exerted(frame && !loads_.empty() ? state_.x.size() : 0);
     if (frame) {
@@ -390,6 +395,10 @@ std::string StageRun::run(TrajectoryWriter& writer, const SimulateOptions& optio
       };
       put("time", time), put("stage", index_), put("strain", strain), put("stress", row.stress);
       put("force_a", row.force_a), put("force_b", row.force_b);
+      for (std::size_t k = 0; k < load_columns_.size(); ++k) {
+        const LoadColumn& c = load_columns_[k];
+        put(c.name, c.displacement ? moved[k] : m.load_force[c.load][c.component]);
+      }
       const auto terms = model_->terms();
       for (std::size_t k = 0; k < terms.size(); ++k) put("energy_" + terms[k]->name(), energies[k]);
       put("kinetic", m.kinetic), put("work", row.works.loads + row.works.pressure - base_[0]),

@@ -49,6 +49,7 @@ class StageRun {
   State state_;
   std::unique_ptr<Model> model_;
   std::vector<Load> loads_;
+  std::vector<LoadColumn> load_columns_;
   Gauge gauge_;
   std::optional<LoadingCourse> course_;
   std::unique_ptr<VelocityVerlet> stepper_;

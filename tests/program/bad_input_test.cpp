@@ -115,6 +115,13 @@ TEST_F(bad_input, a_time_step_above_the_stable_limit_ends_the_run) {
   EXPECT_THAT(run(kHoneycomb, "--set run.time_step=1"), ends_with(3, "exceeds the stable limit"));
 }
 
+TEST_F(bad_input, loads_that_would_share_a_column_are_refused) {
+  EXPECT_THAT(check(kHoneycomb + std::string("[[loads]]\nname = \"the weight\"\nnodes.cells = [0]\nforce_x = 1\n"
+                                             "[[loads]]\nname = \"the-weight\"\nnodes.cells = [0]\nforce_x = 1\n"
+                                             "[[loads]]\nname = \"the_weight\"\nnodes.cells = [0]\nforce_x = 1\n")),
+              ends_with(2, "'the weight' and 'the_weight' would share columns of the response"));
+}
+
 TEST_F(bad_input, packings_from_elsewhere_are_checked_line_by_line) {
   const std::string scene =
       "[sample]\nkind = \"rings\"\nwidth = 10\nheight = 10\npacking.file = \"disks.csv\"\n[cells]\nthickness = "

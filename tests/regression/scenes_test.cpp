@@ -2,6 +2,7 @@
 // arrays that a scene needs and no others.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "postproc/quantities/cell_shape.h"
@@ -30,6 +31,23 @@ TEST_F(scenes, a_cantilever_at_rest_bends_as_n_hinges_do) {
   const double deflection = -frame.arrays.doubles("x").back();  // y of the last node
   // F L^3 / 3 EI (1 + 1 / 2 n^2) with F = 3e-4, L = EI = 1, n = 8. Slopes of 1.5e-4 leave 1e-8 to large deflections.
   EXPECT_NEAR(deflection / 1e-4, 1 + 1.0 / 128, 1e-6);
+}
+
+TEST_F(scenes, a_load_shows_the_force_that_it_exerts_and_how_far_it_has_moved) {
+  // The clamp moves along the beam against drag, 7 / s of its mass, and holds the weight of 3e-4 N.
+  run_scene(scene_path("cantilever.toml"), out,
+            "--set loads.clamp.velocity_x=1e-3 --set stop.time=20 --set 'loads.weight.name=the weight' --set "
+            "output.frames=2");
+  const TrajectoryReader reader(out / "trajectory.h5");
+  const auto last = [&](const std::string& column) { return response_values(reader, column).back(); };
+  EXPECT_NEAR(last("moved_x_clamp"), 1e-3 * last("time"), 1e-12);
+  EXPECT_NEAR(last("moved_y_clamp"), 0, 1e-12);
+  EXPECT_NEAR(last("force_y_the_weight") / -3e-4, 1, 1e-12);
+  EXPECT_NEAR(last("force_y_clamp") / 3e-4, 1, 1e-6);
+  EXPECT_NEAR(last("force_x_clamp") / (7 * 1e-3 * (1 - 1.0 / 16)), 1, 1e-6);  // of the free nodes: n = 8
+  const auto& columns = reader.response().columns;
+  for (const char* absent : {"force_x_the_weight", "moved_y_the_weight", "force_a"})
+    EXPECT_EQ(std::count(columns.begin(), columns.end(), absent), 0) << absent;
 }
 
 TEST_F(scenes, an_inflated_ring_stays_a_regular_polygon_of_the_right_size) {
