@@ -211,7 +211,12 @@ void StageRun::set_loads(double dt) {
     else  // velocities hold between steps, forces at them
       load.factor = load.ramp > 0 ? smooth_ramp((since + (load.pushes ? 0.0 : 0.5 * dt)) / load.ramp) : 1.0;
   }
+}
+
+// Before a configuration is weighed: the energy of its cores is that under the pressure of its own time.
+void StageRun::set_pressures() {
   if (model_->pressure_histories.empty()) return;
+  const double since = state_.time - start_time_;
   std::vector<double> lever;
   for (std::size_t k = 0; k < model_->pressure_histories.size(); ++k) {
     const auto& history = model_->pressure_histories[k];
@@ -352,6 +357,7 @@ std::string StageRun::run(TrajectoryWriter& writer, const SimulateOptions& optio
     if (frame && row_ > 0) plan_step();
     const double time = state_.time, strain = course_ ? course_->strain() : 0.0;
     const std::int64_t step = state_.step;
+    set_pressures();
     std::vector<double> energies;
     for (const Term* term : model_->terms()) energies.push_back(term->energy(state_.x));
     const double energy = std::accumulate(energies.begin(), energies.end(), 0.0);
@@ -432,6 +438,7 @@ std::string StageRun::run(TrajectoryWriter& writer, const SimulateOptions& optio
     std::int64_t steps = 1;
     if (!ended)
       for (; steps < steps_per_row_; ++steps) {
+        set_pressures();
         set_loads(dt_);
         stepper_->step(dt_, dt_);
       }

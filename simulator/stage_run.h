@@ -35,6 +35,7 @@ class StageRun {
   struct Row;
   void plan_step();
   void set_loads(double dt);
+  void set_pressures();
   Row weigh(double energy, const Measurement& m) const;
   std::optional<std::string> stop_reason(const Row& row);
   void check_health() const;
