@@ -81,6 +81,9 @@ class Node {
 
 /// Name under which replace_file writes: never mistaken for a complete file.
 std::filesystem::path temporary_name(const std::filesystem::path& path);
+/// From now on, files of this process are left to the operating system to bring to the disk: for runs that can be had again, and are many.
+/// A crash of the machine may then cost a file that was complete; a crash of the program does not.
+void leave_flushing_to_the_system();
 /// Brings the entries of a folder (files made, renamed, removed) to the disk.
 void sync_folder(const std::filesystem::path& folder);
 
