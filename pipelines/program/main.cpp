@@ -20,7 +20,7 @@ namespace {
 /// What the subcommands read from the command line.
 struct Arguments {
   SceneArguments scene;
-  std::filesystem::path out, sample, trajectory;
+  std::filesystem::path out, sample, trajectory, accuracy;
   std::vector<std::filesystem::path> runs;
   std::string seeds;
   int jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
@@ -121,6 +121,15 @@ int run_program(int argc, char** argv) {
   study->add_option("--jobs", a.study.jobs, "Studies at once")->check(CLI::Range(1, 1024))->capture_default_str();
   add_quiet(study, a);
 
+  CLI::App* accuracy_study =
+      subcommand(app, "accuracy", "Measure error against cost of every method and resolution, and recommend settings",
+                 "lamella accuracy pipelines/accuracy -o results --page accuracy.md");
+  accuracy_study->add_option("FOLDER", a.accuracy, "Folder of the study's scenes, pipelines/accuracy")->required();
+  accuracy_study->add_option("-o,--output", a.study.out, "Folder of the results")->required();
+  accuracy_study->add_option("--page", a.study.page, "Page to write (Markdown), its pictures in a folder beside it");
+  accuracy_study->add_flag("--small", a.small, "Fewer and smaller runs: a few seconds");
+  add_quiet(accuracy_study, a);
+
   CLI::App* describe =
       subcommand(app, "describe", "List every parameter of a scene: unit, range, default", "lamella describe | less");
   describe->add_flag("--markdown", a.markdown, "As the page docs/scene_reference.md");
@@ -154,6 +163,9 @@ int run_program(int argc, char** argv) {
     else if (study->parsed()) {
       a.study.size = a.small ? StudySize::kSmall : StudySize::kFull;
       status = study_command(a.study, a.verbosity());
+    } else if (accuracy_study->parsed()) {
+      a.study.size = a.small ? StudySize::kSmall : StudySize::kFull;
+      status = accuracy_command(a.accuracy, a.study, a.verbosity());
     } else if (check->parsed())
       check_command(a.scene, a.sample);
     else if (describe->parsed())

@@ -20,4 +20,7 @@ struct StudyArguments {
 /// misses what is expected, or the status of the first study that could not be run to its end.
 int study_command(const StudyArguments& arguments, Verbosity verbosity);
 
+/// `lamella accuracy`: the study of `folder`, with a page of its own. `folders` and `jobs` of the arguments are not used.
+int accuracy_command(const std::filesystem::path& folder, const StudyArguments& arguments, Verbosity verbosity);
+
 }  // namespace lamella
