@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "generator/sample/errors.h"
+#include "simulator/initial.h"
 
 namespace lamella {
 
@@ -94,6 +95,7 @@ StageRun::StageRun(const Sample& sample, const Scene& scene, int stage, const Ar
   for (const auto& history : model_->pressure_histories)
     model_->core->set_pressure(history.cell, interpolated(*history.points, state_.time - start_time_));
   plan_step();
+  if (how != Start::kResumed) set_initial_velocities(*model_, stage_, loads_, dt_, state_);
 }
 
 // The step is a whole fraction of the time between rows, and changes only when the bound asks for a smaller one: a constant

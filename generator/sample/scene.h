@@ -182,6 +182,15 @@ struct LoadScene {
   int line = 0;
 };
 
+/// [[initial]]: velocities of a group of nodes when the stage in which it stands begins. Stages that continue that one do not inherit it.
+struct InitialScene {
+  Selection nodes;
+  std::optional<double> velocity_x, velocity_y;  // [m/s]
+  std::optional<double> spin;                    // counter-clockwise [rad/s]
+  std::optional<Vec2> centre;                    // of the spin [m]; absent: the nodes' centre of mass
+  int line = 0;
+};
+
 /// [loading]: the two grips of a test, in one section. Strain is engineering, tension and opening positive.
 struct LoadingScene {
   std::string kind = "tension";       // tension | compression | shear
@@ -233,6 +242,7 @@ struct Stage {
   std::optional<GravityScene> gravity;
   std::optional<DragScene> drag;
   std::vector<LoadScene> loads;
+  std::vector<InitialScene> initial;
   std::optional<LoadingScene> loading;
   StopScene stop;
   RunScene run;

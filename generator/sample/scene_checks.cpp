@@ -187,6 +187,14 @@ void check_load(const Value& table, const std::string& path, Faults& faults) {
   require(table, path, "nodes", "which nodes, such as nodes = { side = \"top\" }", faults);
 }
 
+void check_initial(const Value& table, const std::string& path, Faults& faults) {
+  if (!has(table, "velocity_x") && !has(table, "velocity_y") && !has(table, "spin"))
+    faults.add(table, path, "states nothing; give velocity_x, velocity_y or spin");
+  if (has(table, "centre") && !has(table, "spin"))
+    add_at(table, path, "centre", "is that of a spin; give spin, or leave it out", faults);
+  require(table, path, "nodes", "which nodes, such as nodes = { group = \"cells\" }", faults);
+}
+
 void check_loading(const Value& table, const LoadingScene& loading, Faults& faults) {
   const std::string path = "loading";
   check_alternatives(table, path, faults);
@@ -239,6 +247,8 @@ void check_groups(const Value& at, const Scene& scene, Faults& faults) {
     for (const auto& [group, link] : stage.links) check(group, link.line, "links." + group, "links");
     for (const LoadScene& load : stage.loads)
       if (!load.nodes.group.empty()) check(load.nodes.group, load.line, "loads." + load.name + ".nodes.group", "");
+    for (const InitialScene& initial : stage.initial)
+      if (!initial.nodes.group.empty()) check(initial.nodes.group, initial.line, "initial.nodes.group", "");
   }
 }
 

@@ -16,6 +16,7 @@ void check_cell(const Value& table, const std::string& path, Needs needs, Faults
 void check_core(const Value& table, const std::string& path, const CoreScene& core, Faults& faults);
 void check_link(const Value& table, const std::string& path, Faults& faults);
 void check_load(const Value& table, const std::string& path, Faults& faults);
+void check_initial(const Value& table, const std::string& path, Faults& faults);
 void check_selection(const Value& table, const std::string& path, Faults& faults);
 void check_loading(const Value& table, const LoadingScene& loading, Faults& faults);
 /// Sections of one stage against each other. `at` is the stage's table, `path` "" or "stages.NAME".

@@ -41,6 +41,7 @@ const char* kind_of(const std::string&) { return "word"; }
 const char* kind_of(const Vec2&) { return "pair"; }
 const char* kind_of(const std::vector<Vec2>&) { return "pairs"; }
 const char* kind_of(const std::vector<int>&) { return "whole numbers"; }
+const char* kind_of(const std::optional<Vec2>&) { return "pair"; }
 const char* kind_of(const std::optional<Box>&) { return "four numbers"; }
 
 template <class S>
@@ -91,14 +92,19 @@ std::vector<Section> sections() {
           "are positive."),
       section_of<LoadScene>(
           "[[loads]]", "Velocities or forces prescribed to groups of nodes. A component that is not given stays free."),
-      section_of<Selection>("nodes = { ... } of [[loads]]", "Which nodes: exactly one of these ways."),
+      section_of<InitialScene>(
+          "[[initial]]",
+          "Velocities of groups of nodes when the stage in which it stands begins (the first, where it stands in the "
+          "file itself). Stages that continue that one do not inherit it. Where a load holds a component, the load's "
+          "velocity holds from the first step on."),
+      section_of<Selection>("nodes = { ... } of [[loads]] and [[initial]]", "Which nodes: exactly one of these ways."),
       section_of<StopScene>("[stop]", "A stage ends when the first of these holds, or when its loading is over."),
       section_of<RunScene>("[run]", "How time is stepped."),
       section_of<OutputScene>("[output]", "How much is written."),
       section_of<StageScene>(
           "[[stages]]",
           "Stages run one after another. Each starts with all sections of the one that it continues (the first: "
-          "those of the file), takes out what `remove` lists (\"gravity\", \"loading.ramp_strain\", "
+          "those of the file) but [[initial]], takes out what `remove` lists (\"gravity\", \"loading.ramp_strain\", "
           "\"loads.NAME\"), and puts its own sections [stages.SECTION] over the rest, key by key."),
   };
 }

@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::uintmax_t kLargestScene = 10'000'000;  // [bytes]; geometry belongs in files of its own
 
-const std::vector<std::string> kStageSections{"cells", "links",   "contact", "gravity", "drag",
-                                              "loads", "loading", "stop",    "run",     "output"};
+const std::vector<std::string> kStageSections{"cells",   "links",   "contact", "gravity", "drag",  "loads",
+                                              "initial", "loading", "stop",    "run",     "output"};
 
 /// [cells] and [links] hold their own keys and, as tables, what groups change.
 bool is_group(const Member& member) { return member.value.is_table() && member.key != "core"; }
@@ -90,6 +90,20 @@ LoadScene read_load(const Value& table, std::size_t index, Faults& faults) {
   return load;
 }
 
+InitialScene read_initial(const Value& table, std::size_t index, Faults& faults) {
+  InitialScene initial;
+  initial.line = table.line;
+  const std::string path = fmt::format("initial[{}]", index);
+  read_section(table, path, initial, faults, {"nodes"});
+  if (!table.is_table()) return initial;
+  check_initial(table, path, faults);
+  if (const Value* nodes = table.find("nodes")) {
+    read_section(*nodes, path + ".nodes", initial.nodes, faults);
+    if (nodes->is_table()) check_selection(*nodes, path + ".nodes", faults);
+  }
+  return initial;
+}
+
 /// Reads the section `key` into the optional; leaves it empty when the section is absent.
 template <class S>
 void read_optional(const Value& table, const char* key, std::optional<S>& out, Faults& faults) {
@@ -111,7 +125,7 @@ void read_plain(const Value& table, const char* key, S& out, Faults& faults) {
 
 /// True when the scene asks for a run, and not only for a sample.
 bool simulates(const Value& root) {
-  const auto keys = {"loads", "loading", "stop", "run", "stages"};
+  const auto keys = {"loads", "initial", "loading", "stop", "run", "stages"};
   return std::any_of(keys.begin(), keys.end(), [&](const char* key) { return root.find(key) != nullptr; });
 }
 
@@ -137,6 +151,12 @@ Stage read_stage(const Value& table, const std::string& path, Needs needs, Fault
     if (loads->kind != Value::Kind::array)
       faults.add(*loads, "loads", fmt::format("is {}; loads are a list: [[loads]]", loads->kind_name()));
     for (std::size_t k = 0; k < loads->items.size(); ++k) stage.loads.push_back(read_load(loads->items[k], k, faults));
+  }
+  if (const Value* initial = table.find("initial")) {
+    if (initial->kind != Value::Kind::array)
+      faults.add(*initial, "initial", fmt::format("is {}; velocities are a list: [[initial]]", initial->kind_name()));
+    for (std::size_t k = 0; k < initial->items.size(); ++k)
+      stage.initial.push_back(read_initial(initial->items[k], k, faults));
   }
   read_plain(table, "stop", stage.stop, faults);
   read_plain(table, "run", stage.run, faults);
@@ -212,6 +232,7 @@ std::vector<Stage> read_stages(const Value& root, Needs needs, Faults& faults) {
       else
         tree = trees[found - earlier.begin()].second;
     }
+    if (!trees.empty()) tree.erase("initial");  // the start of a stage, not of those that continue it
     if (std::find(earlier.begin(), earlier.end(), facts.name) != earlier.end())
       faults.add(*name, path + ".name", "there is an earlier stage of this name; give each its own");
     if (const Value* remove = own.find("remove")) {

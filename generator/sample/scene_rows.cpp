@@ -547,6 +547,30 @@ const std::vector<Row<LoadScene>>& rows() {
 }
 
 template <>
+const std::vector<Row<InitialScene>>& rows() {
+  using S = InitialScene;
+  static const std::vector<Row<S>> list{
+      {.key = "velocity_x",
+       .member = &S::velocity_x,
+       .unit = "m/s",
+       .sentence = "When the stage begins. Entries that select the same node add up.",
+       .fallback = "as it is: 0, or what the stage continues"},
+      {.key = "velocity_y", .member = &S::velocity_y, .unit = "m/s", .sentence = "Likewise.", .fallback = "as it is"},
+      {.key = "spin",
+       .member = &S::spin,
+       .unit = "rad/s",
+       .sentence = "Rotation, counter-clockwise, added to the velocities; states both components.",
+       .fallback = "none"},
+      {.key = "centre",
+       .member = &S::centre,
+       .unit = "m",
+       .sentence = "Of the spin.",
+       .fallback = "the nodes' centre of mass"},
+  };
+  return list;
+}
+
+template <>
 const std::vector<Row<Selection>>& rows() {
   using S = Selection;
   static const std::vector<Row<S>> list{

@@ -20,9 +20,9 @@ struct Range {
 };
 
 template <class S>
-using MemberOf =
-    std::variant<double S::*, std::optional<double> S::*, int S::*, std::uint64_t S::*, bool S::*, std::string S::*,
-                 Vec2 S::*, std::vector<Vec2> S::*, std::vector<int> S::*, std::optional<Box> S::*>;
+using MemberOf = std::variant<double S::*, std::optional<double> S::*, int S::*, std::uint64_t S::*, bool S::*,
+                              std::string S::*, Vec2 S::*, std::vector<Vec2> S::*, std::vector<int> S::*,
+                              std::optional<Vec2> S::*, std::optional<Box> S::*>;
 
 template <class S>
 struct Row {
@@ -70,6 +70,8 @@ template <>
 const std::vector<Row<DragScene>>& rows();
 template <>
 const std::vector<Row<LoadScene>>& rows();
+template <>
+const std::vector<Row<InitialScene>>& rows();
 template <>
 const std::vector<Row<Selection>>& rows();
 template <>

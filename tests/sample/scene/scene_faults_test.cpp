@@ -12,6 +12,7 @@ namespace lamella {
 namespace {
 
 using testing::AllOf;
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::StartsWith;
@@ -186,6 +187,24 @@ TEST(scene_faults, shapes_need_what_makes_them) {
   EXPECT_THAT(shape("kind = \"box\"\n").size(), 3u);
   EXPECT_THAT(faults("[cells]\nthickness = 1\n[sample]\nkind = \"shapes\"\n"),
               ElementsAre(HasSubstr("list at least one [[sample.shapes]]")));
+}
+
+TEST(scene_faults, velocities_at_the_start_state_something_of_some_nodes) {
+  const auto initial = [](const std::string& keys) { return faults(plate("[stop]\ntime = 1\n[[initial]]\n" + keys)); };
+  const std::string all = "nodes = { group = \"cells\" }\n";
+  EXPECT_THAT(initial(all + "velocity_x = 1\n"), ElementsAre());
+  EXPECT_THAT(initial(all + "spin = 1\ncentre = [0, 1]\n"), ElementsAre());
+  EXPECT_THAT(initial(all), ElementsAre("s.toml:14: initial[0]: states nothing; give velocity_x, velocity_y or spin"));
+  EXPECT_THAT(initial("velocity_x = 1\n"), ElementsAre(HasSubstr("s.toml:14: initial[0].nodes: missing")));
+  EXPECT_THAT(initial(all + "velocity_y = 1\ncentre = [0, 1]\n"),
+              ElementsAre(HasSubstr("s.toml:17: initial[0].centre: is that of a spin")));
+  EXPECT_THAT(initial(all + "spin = \"1 m/s\"\n"), ElementsAre(HasSubstr("initial[0].spin: \"1 m/s\" is of another")));
+  EXPECT_THAT(initial(all + "velocity_x = nan\n"), ElementsAre(HasSubstr("is not finite")));
+  EXPECT_THAT(initial(all + "velosity_x = 1\n"), Contains(HasSubstr("did you mean \"velocity_x\"?")));
+  EXPECT_THAT(initial("velocity_x = 1\nnodes = { group = \"cels\" }\n"),
+              ElementsAre(HasSubstr("initial.nodes.group: the sample has no group \"cels\"")));
+  EXPECT_THAT(faults("initial = 3\n" + plate("[stop]\ntime = 1\n")),
+              ElementsAre(HasSubstr("s.toml:1: initial: is a whole number; velocities are a list: [[initial]]")));
 }
 
 TEST(scene_faults, stages_name_what_exists) {

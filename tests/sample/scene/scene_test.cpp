@@ -177,6 +177,25 @@ TEST(scene, stiffness_and_yield_follow_from_material_and_section) {
   EXPECT_THROW(CellScene{}.axial(), SceneError);
 }
 
+TEST(scene, velocities_at_the_start_belong_to_the_stage_in_which_they_stand) {
+  const std::string all = "nodes = { group = \"plate\" }\n";
+  const Scene scene = parse_scene(kPlate + "[stop]\ntime = 1\n[[initial]]\nvelocity_x = \"3 mm/s\"\n" + all +
+                                      "[[stages]]\nname = \"shot\"\n[[stages]]\nname = \"flight\"\n"
+                                      "[[stages]]\nname = \"second shot\"\n[[stages.initial]]\nspin = \"1 rad/s\"\n" +
+                                      all + "[[stages]]\nname = \"again\"\nfrom = \"shot\"\n",
+                                  "s.toml", {"initial.0.velocity_y=2"});
+  ASSERT_EQ(scene.stages.size(), 4u);
+  ASSERT_EQ(scene.stages[0].initial.size(), 1u);
+  EXPECT_DOUBLE_EQ(*scene.stages[0].initial[0].velocity_x, 3e-3);
+  EXPECT_DOUBLE_EQ(*scene.stages[0].initial[0].velocity_y, 2);
+  EXPECT_EQ(scene.stages[0].initial[0].nodes.group, "plate");
+  EXPECT_TRUE(scene.stages[1].initial.empty());
+  ASSERT_EQ(scene.stages[2].initial.size(), 1u);
+  EXPECT_FALSE(scene.stages[2].initial[0].velocity_x);
+  EXPECT_DOUBLE_EQ(*scene.stages[2].initial[0].spin, 1);
+  EXPECT_TRUE(scene.stages[3].initial.empty());
+}
+
 TEST(scene, files_named_inside_start_at_the_folder_of_the_scene) {
   Scene scene;
   scene.path = "/somewhere/study/scene.toml";
