@@ -20,14 +20,27 @@ struct CohesiveLinks::State {
 };
 
 CohesiveLinks::CohesiveLinks(const ShellLayout& layout, LinkParameters parameters)
-    : sample_(layout.sample()), p_(std::move(parameters)), first_normal_stiffness_(p_.normal_stiffness) {
-  const auto& links = sample_.links;
+    : layout_(layout),
+      sample_(layout.sample()),
+      p_(std::move(parameters)),
+      first_normal_stiffness_(p_.normal_stiffness),
+      intact_(sample_.links.size(), 1) {
+  if (breakable()) keep_break_times();
+  make_stations();
+}
+
+void CohesiveLinks::make_stations() {
+  for (auto* indices : {&a_, &b_, &link_, &cell_b_, &first_, &last_, &block_begin_, &block_middle_, &farthest_node_})
+    indices->clear();
+  for (auto* values : {&k_n_, &k_t_, &offset_n_, &offset_t_, &inverse_strength_n_, &inverse_strength_t_})
+    values->clear();
+  const auto& links = standing_.empty() ? sample_.links : standing_;
   const auto cell_of = cell_of_node(sample_);
   const Index count = static_cast<Index>(links.size());
-  const auto block = [&](Index node) { return layout.block_of_cell(cell_of[node]); };
+  const auto block = [&](Index node) { return layout_.block_of_cell(cell_of[node]); };
   const auto owner = [&](Index l) { return std::min(block(links[l].a), block(links[l].b)); };
   const auto leaves = [&](Index l) {
-    return layout.chunk_of_block(block(links[l].a)) != layout.chunk_of_block(block(links[l].b)) ? 1 : 0;
+    return layout_.chunk_of_block(block(links[l].a)) != layout_.chunk_of_block(block(links[l].b)) ? 1 : 0;
   };
   std::vector<Index> order(count);
   std::iota(order.begin(), order.end(), 0);
@@ -35,7 +48,7 @@ CohesiveLinks::CohesiveLinks(const ShellLayout& layout, LinkParameters parameter
                    [&](Index l, Index m) { return std::pair(owner(l), leaves(l)) < std::pair(owner(m), leaves(m)); });
 
   station_.assign(count, 0);
-  const Index blocks = static_cast<Index>(layout.blocks().size());
+  const Index blocks = static_cast<Index>(layout_.blocks().size());
   block_begin_.assign(1, 0);
   Index at = 0;
   for (Index b = 0; b < blocks; ++b) {
@@ -65,15 +78,13 @@ CohesiveLinks::CohesiveLinks(const ShellLayout& layout, LinkParameters parameter
       inverse_strength_n_.push_back(l < 0 ? 0.0 : 1 / p_.normal_strength[l]);
       inverse_strength_t_.push_back(l < 0 ? 0.0 : 1 / p_.tangential_strength[l]);
     }
-    break_time_.assign(count, -1.0);
   }
-  intact_.assign(count, 1);
 }
 
 // A run starts with a pair (a_prev, b_next) where the first link's tangent reaches back, and ends with (a_next, b_prev) where
 // the last one's reaches on; such pairs carry no link themselves.
 void CohesiveLinks::add_stations(Index l, bool continues) {
-  const Link& link = sample_.links[l];
+  const Link& link = this->link(l);
   const auto add = [&](Index a, Index b, Index carried) {
     a_.push_back(a), b_.push_back(b), link_.push_back(carried), first_.push_back(0), last_.push_back(0);
     k_n_.push_back(carried < 0 ? 0.0 : p_.normal_stiffness[carried]);
@@ -101,7 +112,7 @@ void CohesiveLinks::add_stations(Index l, bool continues) {
 }
 
 CohesiveLinks::State CohesiveLinks::state(const Field& x, Index l) const {
-  const Link& link = sample_.links[l];
+  const Link& link = this->link(l);
   State s;
   s.d = x.at(link.b) - x.at(link.a);
   const Vec2 tau = (x.at(link.a_next) - x.at(link.a_prev)) - (x.at(link.b_next) - x.at(link.b_prev));
@@ -223,15 +234,45 @@ void CohesiveLinks::break_exceeded(const Field& x, Index first, Index last, Link
     const State s = state(x, l);
     Break event = broken_at(x, l);
     const double f_n_after = p_.contact_after && s.f_n < 0 ? s.f_n : 0.0;
-    const Vec2 mean = 0.5 * ((s.f_n + f_n_after) * s.n + (s.f_t + event.friction_force) * s.t);
+    const double f_n = 0.5 * (s.f_n + f_n_after), f_t = 0.5 * (s.f_t + event.friction_force);
+    const Vec2 mean = f_n * s.n + f_t * s.t;
+    // The couple of the mean forces goes to the frame, so that angular momentum is kept in this step too.
+    const double moment = f_n * s.d.dot(s.t) - f_t * s.d.dot(s.n);
+    const double share = s.moment != 0 ? moment / s.moment : 0.0;
     event.dropped_force = Vec2(out.fx[at], out.fy[at]) - mean;
-    event.dropped_frame_force = 0.5 * Vec2(out.gx[at], out.gy[at]);
+    event.dropped_frame_force = (1 - share) * Vec2(out.gx[at], out.gy[at]);
     breaks.push_back(event);
     out.fx[at] = mean.x(), out.fy[at] = mean.y();
-    out.gx[at] *= 0.5, out.gy[at] *= 0.5;
+    out.gx[at] *= share, out.gy[at] *= share;
     intact_[l] = 0;
     remove_stiffness(l);
   }
+}
+
+std::vector<Index> CohesiveLinks::without_tangent(const BrokenBars& broken) const {
+  std::vector<Index> out;
+  for (Index l = 0; l < static_cast<Index>(sample_.links.size()); ++l)
+    if (intact_[l] && !has_tangent(with_standing_tangent(sample_.links[l], broken))) out.push_back(l);
+  return out;
+}
+
+Break CohesiveLinks::cut(Index l, const Field& x, const Field& later) {
+  Break event = broken_at(x, l);
+  const auto stored = [&](const Field& at) {
+    const State s = state(at, l);
+    const Link& link = sample_.links[l];
+    return 0.5 * s.f_n * (s.d.dot(s.n) - link.offset_n) + 0.5 * s.f_t * (s.d.dot(s.t) - link.offset_t);
+  };
+  event.energy = 0.5 * (stored(x) + stored(later));
+  intact_[l] = 0;
+  remove_stiffness(l);
+  return event;
+}
+
+void CohesiveLinks::follow(const BrokenBars& broken) {
+  standing_.clear();
+  for (const Link& link : sample_.links) standing_.push_back(with_standing_tangent(link, broken));
+  make_stations();
 }
 
 void CohesiveLinks::commit(const Field& x) {
@@ -291,7 +332,7 @@ void CohesiveLinks::add_force(const Field& x, Field& f) const {
 void CohesiveLinks::add_stiffness(const Field& x, StiffnessSink& sink) const {
   for (Index i = 0; i < static_cast<Index>(sample_.links.size()); ++i) {
     if (!intact_[i]) continue;
-    const Link& link = sample_.links[i];
+    const Link& link = this->link(i);
     const double k_n = p_.normal_stiffness[i], k_t = p_.tangential_stiffness[i];
     const State s = state(x, i);
     const double d_n = s.d.dot(s.n), d_t = s.d.dot(s.t);
@@ -320,6 +361,7 @@ void CohesiveLinks::add_stiffness(const Field& x, StiffnessSink& sink) const {
 }
 
 double CohesiveLinks::mode_mix_of(const Break& b) const {
+  if (!breakable()) return 0;
   return mode_mix(b.f_n, b.f_t, p_.normal_strength[b.link], p_.tangential_strength[b.link]);
 }
 
@@ -336,7 +378,7 @@ Index CohesiveLinks::broken() const { return static_cast<Index>(std::count(intac
 
 void CohesiveLinks::save(ArraySet& restart) const {
   restart.add({"link_intact", "1", "link", 1, std::vector<std::int32_t>(intact_.begin(), intact_.end())});
-  if (breakable()) restart.add({"link_break_time", "s", "link", 1, break_time_});
+  if (!break_time_.empty()) restart.add({"link_break_time", "s", "link", 1, break_time_});
 }
 
 void CohesiveLinks::restore(const ArraySet& restart) {
@@ -345,7 +387,7 @@ void CohesiveLinks::restore(const ArraySet& restart) {
   intact_.assign(intact.begin(), intact.end());
   for (std::size_t l = 0; l < intact_.size(); ++l)
     if (!intact_[l]) remove_stiffness(static_cast<Index>(l));
-  if (breakable() && restart.find("link_break_time")) break_time_ = restart.doubles("link_break_time");
+  if (!break_time_.empty() && restart.find("link_break_time")) break_time_ = restart.doubles("link_break_time");
 }
 
 void CohesiveLinks::add_output(const Field& x, ArraySet& frame) const {
@@ -363,15 +405,16 @@ void CohesiveLinks::add_output(const Field& x, ArraySet& frame) const {
   frame.add({"link_force", "N", "link", 2, std::move(force)});
   frame.add({"link_energy", "J", "link", 1, std::move(energy)});
   frame.add({"link_intact", "1", "link", 1, std::vector<std::int32_t>(intact_.begin(), intact_.end())});
+  if (!break_time_.empty()) frame.add({"link_break_time", "s", "link", 1, break_time_});
   if (!breakable()) return;
   frame.add({"link_zeta", "1", "link", 1, std::move(zeta)});
-  frame.add({"link_break_time", "s", "link", 1, break_time_});
   frame.add({"link_w0", "J", "link", 1, p_.full_energy});
 }
 
 std::size_t CohesiveLinks::bytes() const {
   return a_.size() * (6 * sizeof(Index) + (breakable() ? 6 : 4) * sizeof(double)) +
-         intact_.size() * (sizeof(Index) + 1 + (breakable() ? 7 : 3) * sizeof(double));
+         intact_.size() * (sizeof(Index) + 1 + (breakable() ? 7 : 3) * sizeof(double)) +
+         standing_.size() * sizeof(Link);
 }
 
 }  // namespace lamella

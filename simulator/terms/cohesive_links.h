@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "generator/sample/broken_bars.h"
 #include "simulator/shells.h"
 #include "simulator/terms/term.h"
 
@@ -100,6 +101,17 @@ class CohesiveLinks final : public Term {
   double left_to_friction(const Break& event) const;
   /// A link whose nodes have been pressed past each other (D.n <= 0), if any.
   std::optional<Index> crushed(const Field& x) const;
+  // ---- broken bars ----
+  /// The link as it is now: its tangent holds only bars that stand.
+  const Link& link(Index l) const { return standing_.empty() ? sample_.links[l] : standing_[l]; }
+  /// Intact links that have no bar beside them any more, and so no frame.
+  std::vector<Index> without_tangent(const BrokenBars& broken) const;
+  /// Such a link is gone. Its forces are those at x; its energy is the mean of those at x and at `later`, as it still pulls in full.
+  Break cut(Index link, const Field& x, const Field& later);
+  /// From now on tangents keep to the bars that stand. Makes the stations anew.
+  void follow(const BrokenBars& broken);
+  /// Keeps times of breaks even where links have no strengths.
+  void keep_break_times() { break_time_.resize(sample_.links.size(), -1.0); }
   /// Breaks of the last generic `commit`.
   const std::vector<Break>& breaks() const { return breaks_; }
 
@@ -107,11 +119,14 @@ class CohesiveLinks final : public Term {
   struct State;
   State state(const Field& x, Index link) const;
   Break broken_at(const Field& x, Index link) const;
+  void make_stations();
   void add_stations(Index link, bool continues);
   void remove_stiffness(Index link);
 
+  const ShellLayout& layout_;
   const Sample& sample_;
-  LinkParameters p_;                               // of intact links; k_n and k_t go to 0 with the break
+  std::vector<Link> standing_;  // all links with the tangents that broken bars leave; empty: no bar is broken
+  LinkParameters p_;            // of intact links; k_n and k_t go to 0 with the break
   std::vector<double> first_normal_stiffness_;     // k_n while the link was intact [N/m]
   std::vector<Index> block_begin_, block_middle_;  // stations, per block
   std::vector<Index> farthest_node_;               // per block
@@ -125,7 +140,7 @@ class CohesiveLinks final : public Term {
   std::vector<Index> station_;                                   // of each link of the sample
   // per link of the sample
   std::vector<std::uint8_t> intact_;
-  std::vector<double> break_time_;  // [s], -1 while intact; empty: links never break
+  std::vector<double> break_time_;  // [s], -1 while intact; empty: neither links nor bars break
   std::vector<Break> breaks_;
 };
 
