@@ -50,6 +50,7 @@ Load from_scene(const Sample& sample, const LoadScene& scene) {
   load.name = scene.name;
   load.nodes = select_nodes(sample, scene.nodes);
   load.ramp = scene.ramp;
+  load.stop_force = scene.stop_force;
   const std::optional<double> velocity[2] = {scene.velocity_x, scene.velocity_y};
   for (int c = 0; c < 2; ++c)
     if (velocity[c]) load.holds[c] = true, load.velocity[c] = *velocity[c];

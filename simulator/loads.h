@@ -1,6 +1,7 @@
 // Loads: groups of nodes whose velocity or force is prescribed, component by component. The two grips of a [loading] section are
 // loads too.
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,11 +17,12 @@ struct Load {
   bool holds[2] = {false, false};  // velocity prescribed, per component
   bool pushes = false;             // force prescribed
   bool pushes_along[2] = {false, false};
-  Vec2 velocity = Vec2::Zero();  // in full [m/s]
-  std::vector<Vec2> force;       // on each node, in full [N]; empty unless `pushes`
-  double ramp = 0;               // [s]
-  double factor = 1;             // of the full value in this step; set by the driver
-  bool grip = false;             // belongs to [loading]: its factor is the loading's
+  Vec2 velocity = Vec2::Zero();      // in full [m/s]
+  std::vector<Vec2> force;           // on each node, in full [N]; empty unless `pushes`
+  double ramp = 0;                   // [s]
+  double factor = 1;                 // of the full value in this step; set by the driver
+  bool grip = false;                 // belongs to [loading]: its factor is the loading's
+  std::optional<double> stop_force;  // the stage ends when it exerts more [N]
 };
 
 /// Smooth growth from 0 to 1 over [0, 1] with zero slope at both ends: a load that starts without a jolt.

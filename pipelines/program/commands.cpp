@@ -11,6 +11,7 @@
 #include "postproc/output_file.h"
 #include "postproc/postproc.h"
 #include "simulator/simulate.h"
+#include "simulator/trajectory/extract.h"
 #include "simulator/trajectory/trajectory.h"
 
 namespace lamella {
@@ -164,6 +165,17 @@ void simulate_command(const SceneArguments& arguments, const fs::path& sample_pa
   if (beginning == Beginning::resumed && is_begun(out)) return resume_to(scene, out, progress);
   simulate_to(read_sample(sample_path), scene, out, progress);
   progress.say(out.string());
+}
+
+void extract_command(const fs::path& trajectory, int frame, const fs::path& out, Verbosity verbosity) {
+  require_writable_file(out);
+  const TrajectoryReader reader(trajectory);
+  const Sample sample = extract_sample(reader, frame);
+  make_folder(fs::absolute(out).parent_path());
+  write_sample(out, sample);
+  Progress(verbosity).say(fmt::format("{}: frame {} of {}, {} cells, {} nodes, {} links", out.string(),
+                                      frame < 0 ? reader.frames() + frame : frame, reader.frames(), sample.cells(),
+                                      sample.nodes(), sample.links.size()));
 }
 
 void post_command(const fs::path& trajectory, const fs::path& folder, Verbosity verbosity) {

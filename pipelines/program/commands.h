@@ -28,6 +28,9 @@ enum class Beginning { afresh, resumed };
 void generate_command(const SceneArguments& arguments, const std::filesystem::path& out, Verbosity verbosity);
 void simulate_command(const SceneArguments& arguments, const std::filesystem::path& sample,
                       const std::filesystem::path& out, Beginning beginning, Verbosity verbosity);
+/// A frame's positions as a sample: extract_sample.
+void extract_command(const std::filesystem::path& trajectory, int frame, const std::filesystem::path& out,
+                     Verbosity verbosity);
 void post_command(const std::filesystem::path& trajectory, const std::filesystem::path& folder, Verbosity verbosity);
 /// Generates, simulates and shows, all in `folder`.
 void run_command(const SceneArguments& arguments, const std::filesystem::path& folder, Beginning beginning,

@@ -24,6 +24,7 @@ struct Arguments {
   std::vector<std::filesystem::path> runs;
   std::string seeds;
   int jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  int frame = -1;
   StudyArguments study;
   bool quiet = false, resume = false, markdown = false, small = false;
 
@@ -99,6 +100,13 @@ int run_program(int argc, char** argv) {
   add_running(simulate, a);
   add_quiet(simulate, a);
 
+  CLI::App* extract = subcommand(app, "extract", "Make a frame of a trajectory a sample for other scenes",
+                                 "lamella extract trajectory.h5 -o sample.h5 --frame 20");
+  extract->add_option("TRAJECTORY", a.trajectory, "Trajectory (HDF5)")->required();
+  add_out(extract, a, "Sample to write (HDF5)");
+  extract->add_option("--frame", a.frame, "Which, from 0; negative: from the end")->capture_default_str();
+  add_quiet(extract, a);
+
   CLI::App* post = subcommand(app, "post", "Show a trajectory: ParaView files, tables, pictures, report",
                               "lamella post trajectory.h5 -o results");
   post->add_option("TRAJECTORY", a.trajectory, "Trajectory (HDF5)")->required();
@@ -156,6 +164,8 @@ int run_program(int argc, char** argv) {
       generate_command(a.scene, a.out, a.verbosity());
     else if (simulate->parsed())
       simulate_command(a.scene, a.sample, a.out, a.beginning(), a.verbosity());
+    else if (extract->parsed())
+      extract_command(a.trajectory, a.frame, a.out, a.verbosity());
     else if (post->parsed())
       post_command(a.trajectory, a.out, a.verbosity());
     else if (compare->parsed())
