@@ -27,8 +27,11 @@ struct EnergyScale {
 EnergyScale energy_scale(const std::vector<Snapshot>& snapshots) {
   EnergyScale scale;
   std::vector<double> all;
-  for (const Snapshot& s : snapshots)
-    for (double e : cell_energy(*s.view).total) all.push_back(e);
+  for (const Snapshot& s : snapshots) {
+    const std::vector<double> total = cell_energy(*s.view).total;
+    for (Index c = 0; c < static_cast<Index>(total.size()); ++c)
+      if (!s.view->broken_bars() || !s.view->broken_bars()->opened(c)) all.push_back(total[c]);
+  }
   std::sort(all.begin(), all.end());
   const double most = all.empty() ? 0 : all.back();
   const double usual = all.empty() ? 0 : all[std::min(all.size() - 1, all.size() * 99 / 100)];
@@ -110,15 +113,24 @@ Paths draw_crack_path(const std::filesystem::path& stem, const FrameView& last, 
 
   // When each link broke, as strain where there is one.
   const std::vector<double>* break_time = last.doubles("link_break_time");
+  const std::vector<double>* bar_break_time = last.doubles("bar_break_time");
   const bool by_strain = setup && !curve.strain.empty();
-  const auto when = [&](Index link) {
-    const double time = break_time ? (*break_time)[link] : last.frame.time;
+  const auto broken_at = [&](const std::vector<double>* times, Index k) {
+    const double time = times ? (*times)[k] : last.frame.time;
     return by_strain ? 100 * value_at(curve.time, curve.strain, time) : time;
   };
+  const auto when = [&](Index link) { return broken_at(break_time, link); };
+  const BrokenBars* const broken = last.broken_bars();
+  std::vector<std::pair<Index, Index>> bars;  // (cell, segment) that is gone
+  for (Index c = 0; broken && c < sample.cells(); ++c)
+    for (Index i = sample.cell_begin[c]; i < sample.cell_begin[c + 1]; ++i)
+      if (broken->gone(i)) bars.emplace_back(c, i);
   double first = std::numeric_limits<double>::max(), latest = std::numeric_limits<double>::lowest();
   for (const Crack& crack : cracks)
     for (const CrackLine& line : crack.lines)
       for (Index l : line.links) first = std::min(first, when(l)), latest = std::max(latest, when(l));
+  for (const auto& [cell, bar] : bars)
+    first = std::min(first, broken_at(bar_break_time, bar)), latest = std::max(latest, broken_at(bar_break_time, bar));
   if (first > latest) first = 0, latest = 1;
   if (first == latest) latest = first + std::max(1e-12, 0.01 * std::abs(first));
 
@@ -136,12 +148,14 @@ Paths draw_crack_path(const std::filesystem::path& stem, const FrameView& last, 
                 {.size = 13, .anchor = Anchor::kCentre, .weight = Weight::kBold});
     canvas.text(
         {margin + 0.5 * width, margin + 31},
-        fmt::format("{} crack{}, {} from side to side", cracks.size(), cracks.size() == 1 ? "" : "s", side_to_side),
+        fmt::format("{} crack{}{}, {} from side to side", cracks.size(), cracks.size() == 1 ? "" : "s",
+                    bars.empty() ? "" : " between cells", side_to_side) +
+            (bars.empty() ? "" : fmt::format("; {} broken bar{} of walls", bars.size(), bars.size() == 1 ? "" : "s")),
         {.size = 10.5, .anchor = Anchor::kCentre, .colour = kQuiet});
     draw_cells(
         canvas, map, rest,
-        [](Index) {
-          return Colour{0.93, 0.94, 0.95};
+        [&](Index c) {
+          return broken && broken->opened(c) ? Colour{0.98, 0.92, 0.86} : Colour{0.93, 0.94, 0.95};
         },
         Colour{0.74, 0.76, 0.79});
     // Later breaks first, so that the beginning stays on top.
@@ -153,6 +167,8 @@ Paths draw_crack_path(const std::filesystem::path& stem, const FrameView& last, 
     for (const Crack& crack : cracks)
       for (const CrackLine& line : crack.lines)
         for (Index l : line.links) pieces.push_back({when(l), link_mark(map, rest, l, sample.x)});
+    for (const auto& [cell, segment] : bars)
+      pieces.push_back({broken_at(bar_break_time, segment), bar_mark(map, sample, cell, segment)});
     std::stable_sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.when > b.when; });
     for (const Piece& p : pieces) canvas.line(p.points, {embers((p.when - first) / (latest - first)), 3.2, {}});
     if (setup) draw_grips(canvas, map, rest, *setup);
@@ -187,8 +203,10 @@ Paths draw_stress_strain(const std::filesystem::path& stem, const LoadCurve& cur
     stress.x.push_back(100 * curve.strain[k]), stress.y.push_back(curve.stress[k] / unit.factor);
   if (!events.empty()) {
     stress.label = "stress";
-    // Broken links: a staircase.
-    Curve broken{.x = {0}, .y = {0}, .style = {{0.80, 0.43, 0.20}, 1.3, {}}, .label = "broken links"};
+    const bool bars = std::any_of(events.begin(), events.end(), [](const Event& e) { return e.bar >= 0; });
+    const std::string what = bars ? "broken links and bars" : "broken links";
+    // A staircase.
+    Curve broken{.x = {0}, .y = {0}, .style = {{0.80, 0.43, 0.20}, 1.3, {}}, .label = what};
     std::vector<double> strains;
     for (const Event& e : events)
       if (!curve.time.empty() && e.time <= curve.time.back())
@@ -200,7 +218,7 @@ Paths draw_stress_strain(const std::filesystem::path& stem, const LoadCurve& cur
     }
     if (!stress.x.empty()) broken.x.push_back(stress.x.back()), broken.y.push_back(count);
     chart.right_curves.push_back(std::move(broken));
-    chart.right_label = "broken links";
+    chart.right_label = what;
   }
   chart.curves.push_back(std::move(stress));
   for (std::size_t k = 0; k < mark_times.size(); ++k)

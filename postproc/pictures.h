@@ -21,11 +21,11 @@ struct Snapshot {
 };
 
 /// Snapshots side by side (stacked for wide samples), on one colour scale: cell energy over W_0, or in joules where links
-/// do not break. Outlines are true to the walls' thickness. Grips are drawn for a test.
+/// do not break. Opened cells have no colour. Outlines are true to the walls' thickness. Grips are drawn for a test.
 Paths draw_snapshots(const std::filesystem::path& stem, const std::vector<Snapshot>& snapshots,
                      const std::optional<TestSetup>& setup);
 
-/// Broken links on the undeformed tissue, coloured by the strain (in a test) or time at which they broke.
+/// Broken links, and across their walls broken bars, on the undeformed tissue (opened cells tinted), coloured by the strain (in a test) or time at which they broke.
 Paths draw_crack_path(const std::filesystem::path& stem, const FrameView& last, const std::vector<Crack>& cracks,
                       const std::optional<TestSetup>& setup, const LoadCurve& curve);
 

@@ -12,6 +12,7 @@
 #include "postproc/pictures.h"
 #include "postproc/quantities/cell_shape.h"
 #include "postproc/quantities/fragments.h"
+#include "postproc/quantities/packing_state.h"
 #include "postproc/report.h"
 #include "postproc/summarise.h"
 #include "postproc/view_script.h"
@@ -31,7 +32,7 @@ std::size_t rows_of(const NamedArray& array, const Sample& sample) {
 }
 
 /// Stages may have terms of their own, but ParaView shows only what the first frame has: every frame gets the arrays of all
-/// stages, at rest where the term is not there yet (links intact, times of break -1, all else 0).
+/// stages, at rest where the term is not there yet (links and bars intact, times of break -1, all else 0).
 class FrameCompleter {
  public:
   explicit FrameCompleter(const TrajectoryReader& reader) : sample_(reader.sample()) {
@@ -58,7 +59,9 @@ class FrameCompleter {
   }
   NamedArray at_rest(NamedArray array) const {
     const std::size_t size = rows_of(array, sample_) * array.components;
-    const int value = array.name == "link_intact" ? 1 : array.name == "link_break_time" ? -1 : 0;
+    const int value = array.name == "link_intact"                                         ? 1
+                      : array.name == "link_break_time" || array.name == "bar_break_time" ? -1
+                                                                                          : 0;
     std::visit([&](auto& data) { data.assign(size, value); }, array.data);
     return array;
   }
@@ -72,6 +75,7 @@ struct FrameFacts {
   std::vector<double> times;
   std::vector<Vec2> lateral;  // (strain, lateral strain)
   std::vector<std::pair<double, double>> aspects;
+  std::vector<PackingState> packing;  // none without walls on four sides
 };
 
 class Post {
@@ -94,7 +98,8 @@ class Post {
     const Frame last = frame(reader_.frames() - 1);
     const FrameView last_view(reader_.sample(), last);
     facts_.last = &last_view;
-    if (facts_.setup && last_view.has("link_intact") && separated(last_view, facts_.setup->axis))
+    if (facts_.setup && (last_view.has("link_intact") || last_view.broken_bars()) &&
+        separated(last_view, facts_.setup->axis))
       fail_at_separation(facts_.constants, facts_.curve);
     if (last_view.has("link_intact")) facts_.cracks = finder_->find(last_view);
     result_.summary = summarise(facts_);
@@ -151,10 +156,11 @@ class Post {
     double aspect = 0;
     int closed = 0;
     for (Index c = 0; c < sample.cells(); ++c)
-      if (sample.closed[c]) aspect += cell_shape(sample, view.x, c).aspect, ++closed;
+      if (view.closed(c)) aspect += cell_shape(sample, view.x, c).aspect, ++closed;
     if (closed) frames_.aspects.emplace_back(view.frame.time, aspect / closed);
+    if (const auto state = packing_state(view)) frames_.packing.push_back(*state);
     if (!facts_.setup || view.frame.stage != facts_.setup->stage) return;
-    const std::vector<CellShape> shapes = cell_shapes(sample, view.x);
+    const std::vector<CellShape> shapes = cell_shapes(view);
     facts_.cell_stress.emplace_back(view.frame.time,
                                     mean_stress(sample, shapes, cell_stress(view, shapes, facts_.setup->depth)));
     const double sign = facts_.setup->sign();
@@ -268,16 +274,20 @@ class Post {
             ? "Elastic energy of the cells (walls and core) over W\u2080, the energy at which one link breaks in pure "
               "opening; broken links in red, walls with their true thickness."
             : "Elastic energy of the cells (walls and core); walls with their true thickness.";
-    keep(draw_snapshots(folder_ / "snapshots", snapshots, facts_.setup), what);
+    const std::string opened = facts_.last->has("bar_broken") ? " Cells that a broken bar has opened are white." : "";
+    keep(draw_snapshots(folder_ / "snapshots", snapshots, facts_.setup), what + opened);
     tell(0.87, "pictures");
     if (facts_.setup)
       keep(draw_stress_strain(folder_ / "stress_strain", facts_.curve, *facts_.setup, reader_.events(), times),
            "Nominal stress over engineering strain; the marks are the snapshots above.");
-    if (breaks && !facts_.cracks.empty()) {
+    if ((breaks && !facts_.cracks.empty()) || facts_.last->broken_bars()) {
       snapshots.back().title = "Final state";
       keep(draw_snapshots(folder_ / "final_state", {snapshots.back()}, facts_.setup), "The last frame.");
       keep(draw_crack_path(folder_ / "crack_path", *facts_.last, facts_.cracks, facts_.setup, facts_.curve),
-           "Where links broke, on the tissue at rest, and in which order.");
+           facts_.last->broken_bars()
+               ? "Where links broke, and bars (marks across their walls, cells that they opened tinted), on the tissue "
+                 "at rest, and in which order."
+               : "Where links broke, on the tissue at rest, and in which order.");
     }
     if (!facts_.budget.time.empty())
       keep(draw_energy_ledger(
@@ -299,7 +309,11 @@ class Post {
       first_.insert(first_.begin(), write("report.html", report_html(title, pictures_, result_.summary,
                                                                      reader_.provenance(), reader_.ended())));
     if (!reader_.response().rows.empty()) first_.push_back(write("response.csv", response_csv(reader_.response())));
-    if (facts_.last->has("link_break_time")) first_.push_back(write("events.csv", events_csv(reader_.events())));
+    if (!frames_.packing.empty()) first_.push_back(write("packing.csv", packing_csv(frames_.packing)));
+    const bool bars = facts_.last->has("bar_broken");
+    if (bars || facts_.last->has("link_break_time"))
+      first_.push_back(
+          write("events.csv", events_csv(reader_.events(), bars ? Breaks::kLinksAndBars : Breaks::kLinks)));
     std::vector<std::string> names;
     for (const auto* list : {&first_, &result_.files})
       for (const Path& file : *list) names.push_back(file.filename().string());

@@ -13,7 +13,7 @@ namespace lamella {
 struct PostOptions {
   bool vtk = true;                                           // ParaView files
   bool pictures = true;                                      // PNG and PDF, and the report that contains them
-  std::vector<Quantity> accuracy;                            // known before: joins the group "accuracy" of the summary
+  std::vector<Quantity> accuracy{};                          // known before: joins the group "accuracy" of the summary
   std::function<void(double, const std::string&)> progress;  // done in [0, 1], and what is being done
 };
 

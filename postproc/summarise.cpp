@@ -21,6 +21,17 @@ double mean_cell_size(const Sample& sample) {
   return count ? sum / count : 0;
 }
 
+/// Where a break happened, on the sample at rest.
+Vec2 rest_place(const Sample& sample, const Event& event) {
+  if (event.bar < 0) {
+    const Link& link = sample.links.at(event.link);
+    return 0.5 * (sample.x[link.a] + sample.x[link.b]);
+  }
+  Index c = 0;
+  while (event.bar >= sample.cell_begin[c + 1]) ++c;
+  return 0.5 * (sample.x[event.bar] + sample.x[sample.next(c, event.bar)]);
+}
+
 void add_test(Summary& summary, const SummaryInputs& facts) {
   const MaterialConstants& m = facts.constants;
   const TestSetup& setup = *facts.setup;
@@ -88,6 +99,12 @@ void add_test(Summary& summary, const SummaryInputs& facts) {
 void add_fracture(Summary& summary, const SummaryInputs& facts) {
   const Sample& sample = facts.last->sample;
   const std::vector<Event>& events = facts.reader->events();
+  if (const BrokenBars* bars = facts.last->broken_bars()) {
+    summary.add("fracture",
+                {"broken_bars", static_cast<double>(bars->count()), "1", "bars of walls broken in the last frame"});
+    summary.add("fracture", {"opened_cells", static_cast<double>(bars->opened_cells(sample)), "1",
+                             "cells that have lost a bar and are chains in the last frame"});
+  }
   Index broken = 0;
   double broken_length = 0;
   for (std::size_t l = 0; l < sample.links.size(); ++l)
@@ -96,7 +113,10 @@ void add_fracture(Summary& summary, const SummaryInputs& facts) {
   summary.add("fracture", {"broken_length", broken_length, "m", "sum of the tributary lengths of the broken links"});
   const Fragments pieces = fragments(*facts.last);
   summary.add("fracture", {"fragments", static_cast<double>(pieces.count), "1",
-                           "components of cells joined by intact links, last frame"});
+                           facts.last->broken_bars()
+                               ? "components of shells, and of the pieces of opened cells, joined by intact links, "
+                                 "last frame"
+                               : "components of cells joined by intact links, last frame"});
   summary.add("fracture", {"cracks", static_cast<double>(facts.cracks.size()), "1",
                            "connected pieces of broken links, last frame"});
   if (facts.setup) {
@@ -127,13 +147,12 @@ void add_fracture(Summary& summary, const SummaryInputs& facts) {
                  "s", "time at which the first link broke"});
   }
   if (!events.empty() && size > 0) {
-    summary.add("fracture",
-                {"strain_at_first_break", events.front().strain, "1", "nominal strain when the first link broke"});
+    summary.add("fracture", {"strain_at_first_break", events.front().strain, "1",
+                             "nominal strain when the first link or bar broke"});
     double distance = 0;
     const std::size_t count = std::min(kFirstBreaks, events.size());
     for (std::size_t k = 0; k < count; ++k) {
-      const Link& link = sample.links.at(events[k].link);
-      const Vec2 at = 0.5 * (sample.x[link.a] + sample.x[link.b]);
+      const Vec2 at = rest_place(sample, events[k]);
       distance +=
           std::min((at - sample.box.lo).minCoeff(), (sample.box.hi - at).minCoeff()) / static_cast<double>(count);
     }
@@ -142,10 +161,14 @@ void add_fracture(Summary& summary, const SummaryInputs& facts) {
                  fmt::format("mean distance of the first {} breaks from the nearest side of the box, at rest, over "
                              "the mean cell diameter",
                              count)});
-    double shear = 0, energy = 0;
-    for (const Event& e : events) shear += e.mode_mix > M_PI / 4 ? 1 : 0, energy += e.energy;
-    summary.add("fracture", {"share_broken_in_shear", shear / static_cast<double>(events.size()), "1",
-                             "share of breaks with mode mix above pi/4"});
+    double shear = 0, energy = 0, links = 0;
+    for (const Event& e : events) {
+      links += e.bar < 0 ? 1 : 0;
+      shear += e.bar < 0 && e.mode_mix > M_PI / 4 ? 1 : 0, energy += e.energy;
+    }
+    if (links > 0)
+      summary.add("fracture",
+                  {"share_broken_in_shear", shear / links, "1", "share of broken links with mode mix above pi/4"});
     summary.add("fracture", {"fracture_energy", energy, "J", "sum of the energies released by the breaks"});
   }
   if (facts.aspects.size() > 1) {
@@ -196,7 +219,8 @@ Summary summarise(const SummaryInputs& facts) {
   Summary summary;
   const Sample& sample = facts.last->sample;
   if (facts.setup && !facts.curve.strain.empty()) add_test(summary, facts);
-  if (!sample.links.empty() && facts.last->has("link_intact")) add_fracture(summary, facts);
+  if ((!sample.links.empty() && facts.last->has("link_intact")) || facts.last->has("bar_broken"))
+    add_fracture(summary, facts);
   add_accuracy(summary, facts);
   summary.add("sample", {"cells", static_cast<double>(sample.cells()), "1", "shells of the sample"});
   summary.add("sample", {"nodes", static_cast<double>(sample.nodes()), "1", "mass points"});

@@ -47,12 +47,16 @@ std::string response_csv(const Response& response) {
   return text;
 }
 
-std::string events_csv(const std::vector<Event>& events) {
-  std::string text =
-      "time [s],step [1],stage [1],strain [1],link [1],x [m],y [m],f_n [N],f_t [N],mode_mix [rad],energy [J]\n";
-  for (const Event& e : events)
-    text += fmt::format("{:.10g},{},{},{:.10g},{},{:.10g},{:.10g},{:.10g},{:.10g},{:.6g},{:.10g}\n", e.time, e.step,
+std::string events_csv(const std::vector<Event>& events, Breaks breaks) {
+  const bool bars = breaks == Breaks::kLinksAndBars;
+  std::string text = fmt::format(
+      "time [s],step [1],stage [1],strain [1],link [1],x [m],y [m],f_n [N],f_t [N],mode_mix [rad],energy [J]{}\n",
+      bars ? ",bar [1]" : "");
+  for (const Event& e : events) {
+    text += fmt::format("{:.10g},{},{},{:.10g},{},{:.10g},{:.10g},{:.10g},{:.10g},{:.6g},{:.10g}", e.time, e.step,
                         e.stage, e.strain, e.link, e.position.x(), e.position.y(), e.f_n, e.f_t, e.mode_mix, e.energy);
+    text += bars ? fmt::format(",{}\n", e.bar) : "\n";
+  }
   return text;
 }
 

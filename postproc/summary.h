@@ -33,6 +33,8 @@ std::string summary_json(const Summary& summary, const Provenance& provenance, c
 
 /// Names of columns carry their units, as in `stress [Pa]`.
 std::string response_csv(const Response& response);
-std::string events_csv(const std::vector<Event>& events);
+/// With bars, a column says which one broke (-1: a link did).
+enum class Breaks { kLinks, kLinksAndBars };
+std::string events_csv(const std::vector<Event>& events, Breaks breaks);
 
 }  // namespace lamella

@@ -46,7 +46,7 @@ Mesh cells_mesh(const FrameView& view, double depth) {
   mesh.points = view.x;
   std::vector<Index> cells;
   for (Index c = 0; c < sample.cells(); ++c) {
-    if (!sample.closed[c]) continue;
+    if (!view.closed(c)) continue;
     cells.push_back(c);
     for (Index i = sample.cell_begin[c]; i < sample.cell_begin[c + 1]; ++i) mesh.connectivity.push_back(i);
     mesh.end_cell();
@@ -77,7 +77,7 @@ Mesh cells_mesh(const FrameView& view, double depth) {
     numbers("energy_over_w0", [&](Index c) { return energy.total[c] / w0; });
   if (const std::vector<double>* pressure = view.doubles("pressure")) list("pressure", *pressure);
 
-  const std::vector<CellShape> shapes = cell_shapes(sample, view.x);
+  const std::vector<CellShape> shapes = cell_shapes(view);
   numbers("area", [&](Index c) { return shapes[c].area; });
   numbers("outline_area", [&](Index c) { return shapes[c].outline_area; });
   numbers("aspect", [&](Index c) { return shapes[c].aspect; });
@@ -112,7 +112,7 @@ Mesh walls_mesh(const FrameView& view) {
   std::vector<int> cell_id;
   for (Index c = 0; c < sample.cells(); ++c)
     for (Index i = sample.cell_begin[c]; i < sample.cell_begin[c + 1]; ++i) {
-      if (!sample.starts_segment(c, i)) continue;
+      if (!sample.starts_segment(c, i) || view.gone(i)) continue;
       segments.push_back(i);
       cell_id.push_back(c);
       mesh.connectivity.push_back(i);
@@ -154,7 +154,7 @@ Mesh links_mesh(const FrameView& view) {
     id.push_back(static_cast<int>(l));
     wall.push_back(link.wall);
     intact.push_back(view.intact(static_cast<Index>(l)) ? 1 : 0);
-    opening.push_back(static_cast<float>(link_opening(link, view.x)));
+    opening.push_back(static_cast<float>(link_opening(view.link(static_cast<Index>(l)), view.x)));
   }
   add_array(mesh.cell_data, "link_id", std::move(id));
   add_array(mesh.cell_data, "wall_id", std::move(wall));
@@ -219,7 +219,7 @@ Mesh cracks_mesh(const FrameView& view, const std::vector<Crack>& cracks) {
       const CrackLine& line = cracks[k].lines[b];
       std::vector<Vec2> points = line.points;
       if (points.size() == 1) {  // a lone link within its wall: as long as what it stands for
-        const Link& link = view.sample.links[line.links[0]];
+        const Link link = view.link(line.links[0]);
         const Vec2 half = 0.5 * link.length * link_frame(link, view.x).t;
         points = {line.points[0] - half, line.points[0] + half};
       }

@@ -158,6 +158,23 @@ void add_contacts(Model& model, const Stage& stage, const std::vector<double>& t
     }
 }
 
+/// Values of an optional strength per cell: infinite where absent; empty when no cell has one.
+WallStrength wall_strength(const Sample& sample, const std::vector<const CellScene*>& section) {
+  WallStrength strength;
+  strength.force = yields(section, [](const CellScene& c) { return c.bar_strength(); });
+  strength.strain = yields(section, [](const CellScene& c) { return c.break_strain; });
+  for (Index c = 0; c < sample.cells(); ++c) {
+    const auto force = section[c]->bar_strength(), flow = section[c]->bar_yield();
+    if (force && flow && *force > *flow)
+      throw SceneError(
+          fmt::format("line {}: cells.break_{}: walls would flow at {:.4g} N and never reach the {:.4g} N at which "
+                      "they break; give "
+                      "less, or break_strain",
+                      section[c]->line, section[c]->break_stress ? "stress" : "force", *flow, *force));
+  }
+  return strength;
+}
+
 }  // namespace
 
 std::unique_ptr<Model> build_model(const Sample& sample, const Stage& stage, const Field& x) {
@@ -194,7 +211,17 @@ std::unique_ptr<Model> build_model(const Sample& sample, const Stage& stage, con
   if (stage.gravity) model->gravity = std::make_unique<Gravity>(model->mass, stage.gravity->acceleration);
   if (stage.drag) model->drag_rate = stage.drag->rate;
   if (dashpots) model->dashpots = std::make_unique<Dashpots>(model->layout, bar_dashpot, hinge_dashpot);
+  const WallStrength strength = wall_strength(sample, section);
+  if (!strength.force.empty() || !strength.strain.empty()) model->add_rupture(strength);
   return model;
+}
+
+void Model::add_rupture(const WallStrength& strength) {
+  rupture = std::make_unique<WallRupture>(
+      layout, strength,
+      WallRupture::Parts{.bars = bars.get(), .hinges = hinges.get(), .core = core.get(), .dashpots = dashpots.get()});
+  if (contacts) contacts->watch(rupture->broken());
+  if (links) links->keep_break_times();
 }
 
 std::vector<ShellTerm*> Model::shell_terms() const {
@@ -216,6 +243,7 @@ std::size_t Model::bytes() const {
   std::size_t sum = 2 * sizeof(double) * mass.size();
   for (const Term* term : terms()) sum += term->bytes();
   if (dashpots) sum += dashpots->bytes();
+  if (rupture) sum += rupture->bytes();
   return sum;
 }
 

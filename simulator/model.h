@@ -14,6 +14,7 @@
 #include "simulator/terms/dashpots.h"
 #include "simulator/terms/gravity.h"
 #include "simulator/terms/hinges.h"
+#include "simulator/terms/wall_rupture.h"
 
 namespace lamella {
 
@@ -38,6 +39,7 @@ struct Model {
   std::unique_ptr<Contacts> contacts;
   std::unique_ptr<Gravity> gravity;
   std::unique_ptr<Dashpots> dashpots;
+  std::unique_ptr<WallRupture> rupture;
   double drag_rate = 0;        // [1/s]; 0: no drag
   double contact_damping = 0;  // fraction of critical; 0: none
   double friction = 0;         // mu; 0: none
@@ -47,6 +49,8 @@ struct Model {
   std::vector<Term*> terms() const;
   /// Terms inside cells, in the order in which a block adds them.
   std::vector<ShellTerm*> shell_terms() const;
+  /// Walls that break from now on, or are broken (restored) though the stage has no strengths. After all terms are there.
+  void add_rupture(const WallStrength& strength);
   std::size_t bytes() const;
 };
 

@@ -54,6 +54,14 @@ std::vector<double> ShellLayout::padded(const std::vector<double>& per_node, dou
   return out;
 }
 
+void ShellLayout::set_padded(std::vector<double>& per_slot, Index cell, Index node, double value) const {
+  const Index begin = sample_->cell_begin[cell], end = sample_->cell_begin[cell + 1];
+  per_slot[slot(cell, node)] = value;
+  if (!sample_->closed[cell]) return;
+  if (node + 1 == end) per_slot[slot(cell, begin) - 1] = value;
+  if (node == begin) per_slot[slot(cell, end - 1) + 1] = value;
+}
+
 std::vector<double> ShellLayout::unpadded(const std::vector<double>& per_slot) const {
   std::vector<double> out(sample_->nodes());
   for (Index c = 0; c < sample_->cells(); ++c)

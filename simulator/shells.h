@@ -33,6 +33,8 @@ class ShellLayout {
 
   /// Per-segment (or per-node) values in the padded layout: copies at the two ghosts of a closed cell, `filler` at those of a chain.
   std::vector<double> padded(const std::vector<double>& per_node, double filler) const;
+  /// Sets one value of the padded layout, and its copy beyond the seam of a closed cell.
+  void set_padded(std::vector<double>& per_slot, Index cell, Index node, double value) const;
   /// The values of real nodes back out of the padded layout.
   std::vector<double> unpadded(const std::vector<double>& per_slot) const;
 

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "generator/sample/errors.h"
+#include "generator/sample/voids.h"
 #include "simulator/initial.h"
 
 namespace lamella {
@@ -17,6 +18,8 @@ struct StageRun::Row {
   double time = 0, strain = 0, stress = 0, force_a = 0, force_b = 0;
   Works works;
   double residual = 0, unbalanced = 0;
+  std::optional<std::string> packed;  // says which stop condition of the room between the walls holds
+  std::vector<Vec2> load_force;       // [N]
 };
 
 namespace {
@@ -28,6 +31,12 @@ Field field_from(const std::vector<double>& rows) {
   Field f(rows.size() / 2);
   for (std::size_t i = 0; i < f.size(); ++i) f.x[i] = rows[2 * i], f.y[i] = rows[2 * i + 1];
   return f;
+}
+
+std::vector<Vec2> points_from(const Field& f) {
+  std::vector<Vec2> points(f.size());
+  for (std::size_t i = 0; i < f.size(); ++i) points[i] = f.at(i);
+  return points;
 }
 
 std::vector<double> rows_from(const Field& f) {
@@ -66,9 +75,23 @@ StageRun::StageRun(const Sample& sample, const Scene& scene, int stage, const Ar
   load_columns_ = load_columns(loads_);
   gauge_ = measure_gauge(sample, stage_, loads_);
   if (stage_.loading) course_.emplace(*stage_.loading, gauge_);
+  if (start.find("bar_broken")) {
+    if (!model_->rupture) model_->add_rupture({});
+    model_->rupture->restore(start);
+    if (model_->links && model_->rupture->broken().count() > 0) model_->links->follow(model_->rupture->broken());
+  }
   for (Term* term : model_->terms()) term->restore(start);
   stepper_ = std::make_unique<VelocityVerlet>(*model_, loads_, state_, stage_.run.threads);
 
+  if (stage_.stop.compaction || stage_.stop.void_ratio) {
+    const auto room = room_between_walls(sample, sample.x), now = room_between_walls(sample, points_from(state_.x));
+    if (!room || !now)
+      throw SceneError(fmt::format(
+          "stop.{}: needs closed cells between walls on all four sides: open chains along x and y, such as plates",
+          stage_.stop.compaction ? "compaction" : "void_ratio"));
+    sample_room_ = room->area();
+    loosens_ = stage_.stop.compaction && compaction(*now) > *stage_.stop.compaction;
+  }
   start_time_ = state_.time;
   if (course_) duration_ = course_->duration();
   if (stage_.stop.time)
@@ -90,8 +113,10 @@ StageRun::StageRun(const Sample& sample, const Scene& scene, int stage, const Ar
     pressure_work_ = d.at(7);
     base_ = start.doubles("ledger_base");
     pressure_lever_ = start.doubles("pressure_lever");
+    if (stage_.stop.compaction) loosens_ = start.doubles("loosens").at(0) != 0;
   }
   if (model_->links) broken_ = model_->links->broken();
+  if (model_->rupture) broken_bars_ = model_->rupture->broken().count();
   for (const auto& history : model_->pressure_histories)
     model_->core->set_pressure(history.cell, interpolated(*history.points, state_.time - start_time_));
   plan_step();
@@ -140,7 +165,10 @@ void StageRun::columns(std::vector<std::string>& names, std::vector<std::string>
   bool plastic = false;
   for (const ShellTerm* term : model_->shell_terms()) plastic = plastic || term->plastic();
   if (plastic) add("plastic", "J");
-  if (model_->links && model_->links->breakable()) add("fracture", "J"), add("broken_links", "1");
+  const bool links_break = model_->links && (model_->links->breakable() || model_->rupture);
+  if (links_break || model_->rupture) add("fracture", "J");
+  if (links_break) add("broken_links", "1");
+  if (model_->rupture) add("broken_bars", "1");
   add("residual", "1"), add("unbalanced", "1");
 }
 
@@ -222,6 +250,10 @@ void StageRun::set_pressures() {
   std::vector<double> lever;
   for (std::size_t k = 0; k < model_->pressure_histories.size(); ++k) {
     const auto& history = model_->pressure_histories[k];
+    if (!model_->core->present(history.cell)) {  // it has opened
+      lever.push_back(0);
+      continue;
+    }
     const double before = model_->core->pressure(history.cell), now = interpolated(*history.points, since);
     lever.push_back(model_->core->energy_per_pressure(history.cell, state_.x));
     pressure_work_ +=
@@ -235,7 +267,7 @@ void StageRun::set_pressures() {
 StageRun::Row StageRun::weigh(double energy, const Measurement& m) const {
   Row row;
   row.works = m.works;
-  row.works.pressure = pressure_work_;
+  row.works.pressure += pressure_work_;
   row.unbalanced = m.unbalanced;
   if (course_) {
     row.force_a = -m.load_force[0][gauge_.component];
@@ -255,41 +287,60 @@ std::optional<std::string> StageRun::stop_reason(const Row& row) {
   if (course_ && course_->finished()) return fmt::format("strain {:.4g} reached", row.strain);
   const StopScene& stop = stage_.stop;
   if (stop.time && since >= *stop.time * (1 - 1e-9)) return fmt::format("time {:.4g} s reached", *stop.time);
-  if (stop.stress_drop && broken_ > 0 && magnitude < *stop.stress_drop * peak_stress_)
+  const bool damaged = broken_ + broken_bars_ > 0;
+  if (stop.stress_drop && damaged && magnitude < *stop.stress_drop * peak_stress_)
     return fmt::format("stress fell below {:.0f} % of its peak {:.4g} Pa", 100 * *stop.stress_drop, peak_stress_);
-  if (stop.separated && broken_ > 0 && separated())
-    return "separated: no path of shells and intact links joins the grips";
+  if (stop.separated && damaged && separated()) return "separated: no path of shells and intact links joins the grips";
   if (stop.at_rest && row_ > 0 && row.unbalanced < *stop.at_rest)
     return fmt::format("at rest: relative unbalanced force {:.2g}", row.unbalanced);
+  for (std::size_t l = 0; l < loads_.size(); ++l)
+    if (loads_[l].stop_force && row.load_force[l].norm() > *loads_[l].stop_force)
+      return fmt::format("load '{}' exerts {:.4g} N", loads_[l].name, row.load_force[l].norm());
+  return row.packed;
+}
+
+/// The stop condition of the room between the walls that holds in the present configuration.
+std::optional<std::string> StageRun::packed() const {
+  if (!(sample_room_ > 0)) return std::nullopt;
+  const std::vector<Vec2> x = points_from(state_.x);
+  const auto room = room_between_walls(sample_, x);
+  if (!room) throw SolverError(fmt::format("t = {:.6g} s: there is no room left between the walls", state_.time));
+  if (const auto& asked = stage_.stop.compaction)
+    if (const double reached = compaction(*room); loosens_ ? reached <= *asked : reached >= *asked)
+      return fmt::format("compaction {:.4g} reached", reached);
+  if (const auto& asked = stage_.stop.void_ratio)
+    if (const double reached = void_ratio(sample_, x, *room); reached < *asked)
+      return fmt::format("void ratio {:.4g} reached", reached);
   return std::nullopt;
 }
 
 bool StageRun::separated() const {
-  std::vector<Index> parent(sample_.cells());
+  const Pieces pieces = pieces_of(sample_, model_->rupture ? &model_->rupture->broken() : nullptr);
+  std::vector<Index> parent(pieces.count);
   std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](Index c) {
+  const auto root = [&](Index node) {
+    Index c = pieces.of_node[node];
     while (parent[c] != c) c = parent[c] = parent[parent[c]];
     return c;
   };
-  const auto cell_of = cell_of_node(sample_);
-  for (std::size_t l = 0; l < sample_.links.size(); ++l)
-    if (model_->links->intact(static_cast<Index>(l)))
-      parent[root(cell_of[sample_.links[l].a])] = root(cell_of[sample_.links[l].b]);
-  std::vector<std::uint8_t> low(sample_.cells(), 0);
-  for (Index i : loads_[0].nodes) low[root(cell_of[i])] = 1;
-  return std::none_of(loads_[1].nodes.begin(), loads_[1].nodes.end(),
-                      [&](Index i) { return low[root(cell_of[i])] != 0; });
+  if (model_->links)
+    for (std::size_t l = 0; l < sample_.links.size(); ++l)
+      if (model_->links->intact(static_cast<Index>(l))) parent[root(sample_.links[l].a)] = root(sample_.links[l].b);
+  std::vector<std::uint8_t> low(pieces.count, 0);
+  for (Index i : loads_[0].nodes) low[root(i)] = 1;
+  return std::none_of(loads_[1].nodes.begin(), loads_[1].nodes.end(), [&](Index i) { return low[root(i)] != 0; });
 }
 
 // What the model cannot mean anything beyond: stop with time and object.
 void StageRun::check_health() const {
   const Field& x = state_.x;
+  const BrokenBars* const broken = model_->rupture ? &model_->rupture->broken() : nullptr;
   for (Index c = 0; c < sample_.cells(); ++c) {
     for (Index i = sample_.cell_begin[c]; i < sample_.cell_begin[c + 1]; ++i) {
       if (!std::isfinite(x.x[i]) || !std::isfinite(x.y[i]))
         throw SolverError(
             fmt::format("t = {:.6g} s: the position of node {} of cell {} is no longer a number", state_.time, i, c));
-      if (!sample_.starts_segment(c, i)) continue;
+      if (!sample_.starts_segment(c, i) || (broken && broken->gone(i))) continue;
       const double l = (x.at(sample_.next(c, i)) - x.at(i)).norm();
       if (l < 0.1 * sample_.rest_length[i])
         throw SolverError(fmt::format(
@@ -297,7 +348,7 @@ void StageRun::check_health() const {
             "make the wall stiffer",
             state_.time, i, c, l / sample_.rest_length[i]));
     }
-    if (!sample_.closed[c] || !(sample_.rest_area[c] > 0)) continue;
+    if (!sample_.closed[c] || !(sample_.rest_area[c] > 0) || (broken && broken->opened(c))) continue;
     double twice = 0;
     const Vec2 origin = x.at(sample_.cell_begin[c]);
     for (Index i = sample_.cell_begin[c]; i < sample_.cell_begin[c + 1]; ++i)
@@ -328,7 +379,9 @@ ArraySet StageRun::restart_arrays() const {
   out.add({"ledger_base", "J", "model", 1, base_});
   out.add({"pressure_lever", "J/Pa", "model", 1, pressure_lever_});
   if (course_) out.add({"course", "1", "model", 1, course_->save()});
+  if (stage_.stop.compaction) out.add({"loosens", "1", "model", 1, std::vector<double>{loosens_ ? 1.0 : 0.0}});
   for (const Term* term : model_->terms()) term->save(out);
+  if (model_->rupture) model_->rupture->save(out);
   stepper_->save(out);
   return out;
 }
@@ -341,6 +394,37 @@ void StageRun::write(TrajectoryWriter& writer, ArraySet arrays, ArraySet restart
   frame.arrays = std::move(arrays);
   last_ = std::move(restart);
   writer.write_frame(frame, last_);
+}
+
+void StageRun::write_events(TrajectoryWriter& writer) {
+  std::vector<Event> events;
+  const auto add = [&](Event event) {
+    event.step = state_.step;
+    event.strain = course_ ? course_->strain() : 0.0;
+    event.stage = index_;
+    events.push_back(event);
+  };
+  for (const Break& b : stepper_->take_breaks()) {
+    add({.time = model_->links->break_time(b.link),
+         .link = b.link,
+         .position = b.position,
+         .f_n = b.f_n,
+         .f_t = b.f_t,
+         .mode_mix = model_->links->mode_mix_of(b),
+         .energy = b.energy});
+    ++broken_;
+  }
+  for (const WallBreak& b : stepper_->take_wall_breaks()) {
+    add({.time = model_->rupture->break_time(b.bar),
+         .link = -1,
+         .bar = b.bar,
+         .position = b.position,
+         .f_n = b.tension,
+         .energy = b.energy});
+    ++broken_bars_;
+  }
+  std::stable_sort(events.begin(), events.end(), [](const Event& a, const Event& b) { return a.time < b.time; });
+  for (const Event& event : events) writer.add_event(event);
 }
 
 std::string StageRun::run(TrajectoryWriter& writer, const SimulateOptions& options,
@@ -374,8 +458,10 @@ std::string StageRun::run(TrajectoryWriter& writer, const SimulateOptions& optio
       arrays.add({"x", "m", "node", 2, rows_from(state_.x)});
       arrays.add({"v", "m/s", "node", 2, rows_from(state_.v)});
       for (const Term* term : model_->terms()) term->add_output(state_.x, arrays);
+      if (model_->rupture) model_->rupture->add_output(arrays);
       restart = restart_arrays();
     }
+    const auto reason = packed();
     set_loads(dt_);
     const Measurement m = stepper_->measured_step(dt_, 0.5 * (dt_ + last_dt_), exerted.size() > 0 ? &exerted : nullptr);
     last_dt_ = dt_;
@@ -391,6 +477,7 @@ std::string StageRun::run(TrajectoryWriter& writer, const SimulateOptions& optio
     }
     Row row = weigh(energy, m);
     row.time = time, row.strain = strain;
+    row.packed = reason, row.load_force = m.load_force;
     // relative to the largest work so far; where nothing works (free vibration), to the largest energy
     largest_work_ = std::max({largest_work_, std::abs(row.works.loads + row.works.pressure - base_[0]), m.kinetic,
                               std::abs(energy + m.kinetic - base_[1])});
@@ -412,7 +499,8 @@ std::string StageRun::run(TrajectoryWriter& writer, const SimulateOptions& optio
       put("kinetic", m.kinetic), put("work", row.works.loads + row.works.pressure - base_[0]),
           put("damping", row.works.damping);
       put("friction", row.works.friction), put("plastic", row.works.plastic), put("fracture", row.works.fracture);
-      put("broken_links", broken_), put("residual", row.residual), put("unbalanced", row.unbalanced);
+      put("broken_links", broken_), put("broken_bars", broken_bars_), put("residual", row.residual),
+          put("unbalanced", row.unbalanced);
       writer.add_response(values);
       facts.residual = std::max(facts.residual, row.residual);
     }
@@ -427,7 +515,7 @@ std::string StageRun::run(TrajectoryWriter& writer, const SimulateOptions& optio
       p.stage = index_, p.stages = static_cast<int>(scene_.stages.size());
       p.stage_name = stage_.name;
       p.done = (index_ + std::min(1.0, (time - start_time_) / duration_)) / p.stages;
-      p.time = time, p.strain = strain, p.stress = row.stress, p.broken = broken_;
+      p.time = time, p.strain = strain, p.stress = row.stress, p.broken = broken_ + broken_bars_;
       options.progress(p);
     }
     facts.frame_seconds += seconds_since(row_start);
@@ -449,20 +537,7 @@ std::string StageRun::run(TrajectoryWriter& writer, const SimulateOptions& optio
     facts.timed_steps += steps - 1;
     ++row_;
     if (!ended) state_.time = start_time_ + static_cast<double>(row_) * row_interval_;  // no drift of the clock
-    for (const Break& b : stepper_->take_breaks()) {
-      Event event;
-      event.time = model_->links->break_time(b.link);
-      event.step = state_.step;
-      event.link = b.link;
-      event.position = b.position;
-      event.f_n = b.f_n, event.f_t = b.f_t;
-      event.mode_mix = model_->links->mode_mix_of(b);
-      event.energy = b.energy;
-      event.strain = course_ ? course_->strain() : 0.0;
-      event.stage = index_;
-      writer.add_event(event);
-      ++broken_;
-    }
+    write_events(writer);
     if (options.interrupted && options.interrupted->load()) {
       facts.interrupted = true;
       return "interrupted";

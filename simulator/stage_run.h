@@ -36,12 +36,15 @@ class StageRun {
   void plan_step();
   void set_loads(double dt);
   void set_pressures();
+  double compaction(const Box& room) const { return 1 - room.area() / sample_room_; }
+  std::optional<std::string> packed() const;
   Row weigh(double energy, const Measurement& m) const;
   std::optional<std::string> stop_reason(const Row& row);
   void check_health() const;
   void write(TrajectoryWriter& writer, ArraySet arrays, ArraySet restart, double time, std::int64_t step);
   ArraySet restart_arrays() const;
   bool separated() const;
+  void write_events(TrajectoryWriter& writer);
 
   const Sample& sample_;
   const Scene& scene_;
@@ -67,7 +70,9 @@ class StageRun {
   double duration_ = 0;          // expected, or the limit [s]
   // history of the stage
   double peak_stress_ = 0;  // [Pa]
-  int broken_ = 0;
+  double sample_room_ = 0;  // between the walls, in the sample [m2]; 0: no stop condition asks
+  bool loosens_ = false;    // the stage began beyond stop.compaction, and ends when it has come back to it
+  int broken_ = 0, broken_bars_ = 0;
   double largest_work_ = 0;             // [J]
   std::vector<double> base_;            // ledger at the first row: see weigh()
   std::vector<double> pressure_lever_;  // of prescribed pressures at the last step [J/Pa]

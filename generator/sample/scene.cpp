@@ -70,6 +70,11 @@ void Stage::slow_down() {
       for (Vec2& point : section.core->pressure_history) point.x() *= factor;
 }
 
+std::optional<double> CellScene::bar_strength() const {
+  if (break_stress) return *break_stress * thickness * depth;
+  return break_force;
+}
+
 const CellScene& Stage::cell(const std::string& group) const {
   auto found = cells.find(group);
   if (found == cells.end()) found = cells.find("cells");

@@ -116,19 +116,24 @@ struct CellScene {
       yield_stress;  // sigma_Y [Pa]: F_Y = h s sigma, M_Y = s h^2 sigma / 4 (2 sigma / sqrt 3 in plane strain)
   std::optional<double> yield_force;   // F_Y instead [N]
   std::optional<double> yield_moment;  // M_Y instead [N m]
+  // At which a bar breaks, one of the three; none: walls never break.
+  std::optional<double> break_stress;  // mean tension over the wall's section [Pa]
+  std::optional<double> break_force;   // tension [N]
+  std::optional<double> break_strain;  // elongation over the rest length, plastic part included [1]
   double bar_dashpot = 0;              // axial viscosity: force = c / l * dl/dt, c [N s]
   double hinge_dashpot = 0;            // moment = c / lt * d(theta)/dt, c [N m2 s]
   std::optional<CoreScene> core;
   int line = 0;  // where the section stands, for messages
 
   // Derived. Both throw SceneError when neither way of giving them is present.
-  double plane_modulus() const;               // E' [Pa]
-  double axial() const;                       // EA [N]
-  double bending() const;                     // EI [N m2]
-  double line_density() const;                // mass of the wall per length [kg/m]
-  double outline_radius() const;              // r [m]
-  std::optional<double> bar_yield() const;    // F_Y [N]
-  std::optional<double> hinge_yield() const;  // M_Y [N m]
+  double plane_modulus() const;                // E' [Pa]
+  double axial() const;                        // EA [N]
+  double bending() const;                      // EI [N m2]
+  double line_density() const;                 // mass of the wall per length [kg/m]
+  double outline_radius() const;               // r [m]
+  std::optional<double> bar_yield() const;     // F_Y [N]
+  std::optional<double> hinge_yield() const;   // M_Y [N m]
+  std::optional<double> bar_strength() const;  // tension at which a bar breaks [N], by break_stress or break_force
 };
 
 /// [links], and [links.NAME] for links that touch the group NAME.
@@ -179,6 +184,7 @@ struct LoadScene {
   std::optional<double> force_x, force_y;            // total on the group, shared equally [N]
   std::optional<double> line_force_x, line_force_y;  // per length of wall [N/m]
   double ramp = 0;                                   // time to reach the full value, smoothly [s]
+  std::optional<double> stop_force;                  // the stage ends when it exerts more [N]
   int line = 0;
 };
 
@@ -213,6 +219,8 @@ struct StopScene {
   std::optional<double> stress_drop;  // stress below this fraction of its peak so far [1]
   bool separated = false;             // no path of shells and intact links joins the grips
   std::optional<double> at_rest;      // relative unbalanced force below this [1]
+  std::optional<double> compaction;   // by which the room between the walls has shrunk since the sample: reached [1]
+  std::optional<double> void_ratio;   // between the walls, below this [1]
   int line = 0;
 };
 

@@ -135,8 +135,8 @@ void check_cell(const Value& table, const std::string& path, Needs needs, Faults
                  "missing; without it nodes have no mass; give it in kg/m3, or mass_per_length");
   }
   if (has(table, "thickness")) return;
-  const bool made_of_thickness =
-      has(table, "young") || has(table, "density") || has(table, "yield_stress") || !has(table, "radius");
+  const bool made_of_thickness = has(table, "young") || has(table, "density") || has(table, "yield_stress") ||
+                                 has(table, "break_stress") || !has(table, "radius");
   if (made_of_thickness)
     faults.add(table, dotted(path, "thickness"), "missing; give the wall thickness, such as thickness = \"1 um\"");
 }

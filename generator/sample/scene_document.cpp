@@ -260,6 +260,8 @@ const std::vector<Alternative>& alternatives() {
       {{"young"}, {"axial_rigidity", "bending_rigidity"}},
       {{"density"}, {"mass_per_length"}},
       {{"yield_stress"}, {"yield_force", "yield_moment"}},
+      {{"break_stress"}, {"break_force", "break_strain"}},
+      {{"break_force"}, {"break_strain"}},
       {{"modulus"}, {"stiffness_ratio"}},
       {{"strain_rate"}, {"speed"}},
       {{"spacing"}, {"segments"}},

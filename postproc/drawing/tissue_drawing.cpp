@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kMoves = 1e-6;       // of the gauge length: a grip that has moved
 constexpr double kGripShare = 0.022;  // thickness of a grip's bar over the larger side of the box
-const Colour kInk{0.13, 0.14, 0.17}, kGrip{0.47, 0.50, 0.55};
+const Colour kInk{0.13, 0.14, 0.17}, kGrip{0.47, 0.50, 0.55}, kOpened{0.93, 0.94, 0.95};
 
 struct Grip {
   Box bar;                    // [m]
@@ -52,6 +52,24 @@ std::vector<Grip> grips(const FrameView& view, const TestSetup& setup) {
     found.push_back(grip);
   }
   return found;
+}
+
+/// The bars that are left of a cell, piece by piece; it encloses nothing, so nothing is filled.
+void draw_pieces(Canvas& canvas, const FrameView& view, Index cell, const std::vector<Vec2>& points,
+                 const Style& style) {
+  const Sample& sample = view.sample;
+  const Index begin = sample.cell_begin[cell], size = sample.cell_size(cell);
+  // From behind a broken bar, once around.
+  Index first = 0;
+  while (sample.closed[cell] && !view.gone(begin + (first + size - 1) % size)) ++first;
+  std::vector<Vec2> piece;
+  for (Index k = 0; k < size; ++k) {
+    const Index i = (first + k) % size;
+    piece.push_back(points[i]);
+    if (sample.starts_segment(cell, begin + i) && !view.gone(begin + i)) continue;
+    if (piece.size() > 1) canvas.line(piece, style);
+    piece.clear();
+  }
 }
 
 }  // namespace
@@ -97,6 +115,10 @@ void draw_cells(Canvas& canvas, const PageMap& map, const FrameView& view, const
     std::vector<Vec2> points;
     for (Index i = sample.cell_begin[c]; i < sample.cell_begin[c + 1]; ++i) points.push_back(map(view.x[i]));
     const double width = std::max(0.35, 2 * sample.radius[c] * map.scale());
+    if (view.broken_bars() && view.broken_bars()->opened(c)) {
+      draw_pieces(canvas, view, c, points, {mix(kOpened, wall, 0.75), width, {}});
+      continue;
+    }
     if (!sample.closed[c]) {
       canvas.line(points, {mix(fill(c), wall, 0.15), std::max(width, 1.2), {}});
       continue;
@@ -110,8 +132,16 @@ void draw_cells(Canvas& canvas, const PageMap& map, const FrameView& view, const
   }
 }
 
+std::vector<Vec2> bar_mark(const PageMap& map, const Sample& sample, Index cell, Index bar) {
+  const Vec2 p = sample.x[bar], q = sample.x[sample.next(cell, bar)];
+  // Long enough to be seen on thin walls, and never longer than the bar.
+  const double half = std::max(2 * sample.radius[cell], std::min(0.5 * (q - p).norm(), 5 / map.scale()));
+  const Vec2 across = half * left_of(Vec2((q - p).normalized()));
+  return {map(0.5 * (p + q) - across), map(0.5 * (p + q) + across)};
+}
+
 std::vector<Vec2> link_mark(const PageMap& map, const FrameView& view, Index l, const std::vector<Vec2>& x) {
-  const Link& link = view.sample.links[l];
+  const Link link = view.link(l);
   const Vec2 t = link_frame(link, x).t, middle = link_middle(link, x);
   // An end link stands for the half spacing towards its wall's inside.
   double before = 0.5 * link.length, after = before;

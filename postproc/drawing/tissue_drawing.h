@@ -29,12 +29,16 @@ class PageMap {
 /// What a picture of these frames must hold, grips included [m].
 Box drawn_extent(const std::vector<const FrameView*>& views, const std::optional<TestSetup>& setup);
 
-/// Cells filled with their colours, walls drawn with their true thickness 2 r (not thinner than is visible).
+/// Cells filled with their colours, walls drawn with their true thickness 2 r (not thinner than is visible). Of opened cells the bars
+/// that are left; they are not filled.
 void draw_cells(Canvas& canvas, const PageMap& map, const FrameView& view, const std::function<Colour(Index)>& fill,
                 const Colour& wall = {0.10, 0.11, 0.14});
 
 /// The stretch of the crack that a broken link stands for: along its wall, as long as its tributary length, on the page.
 std::vector<Vec2> link_mark(const PageMap& map, const FrameView& view, Index link, const std::vector<Vec2>& x);
+
+/// The stretch of the crack that a broken bar stands for: across its wall at rest, on the page.
+std::vector<Vec2> bar_mark(const PageMap& map, const Sample& sample, Index cell, Index bar);
 
 /// Bars at the gripped sides, with an arrow where the grip has moved.
 void draw_grips(Canvas& canvas, const PageMap& map, const FrameView& view, const TestSetup& setup);

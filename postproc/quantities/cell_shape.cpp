@@ -22,7 +22,38 @@ void set_moments(CellShape& shape, const std::vector<Vec2>& points) {
   shape.orientation = 0.5 * std::atan2(2 * moments(0, 1), moments(0, 0) - moments(1, 1));
 }
 
+/// What is left of a shell or chain: strips of wall with round ends.
+CellShape opened_shape(const FrameView& view, Index cell) {
+  const Sample& sample = view.sample;
+  CellShape shape;
+  shape.opened = true;
+  Vec2 moment = Vec2::Zero();
+  const Vec2 origin = view.x[sample.cell_begin[cell]];
+  int ends = sample.closed[cell] ? 0 : 1;
+  for (Index i = sample.cell_begin[cell]; i < sample.cell_begin[cell + 1]; ++i) {
+    if (!sample.starts_segment(cell, i)) continue;
+    if (view.gone(i)) {
+      ++ends;
+      continue;
+    }
+    const Vec2 p = view.x[i] - origin, q = view.x[sample.next(cell, i)] - origin;
+    const double length = (q - p).norm();
+    shape.perimeter += length;
+    moment += 0.5 * length * (p + q);
+  }
+  shape.centroid = origin;
+  if (shape.perimeter > 0) shape.centroid += moment / shape.perimeter;
+  const double r = sample.radius[cell];
+  shape.outline_area = 2 * r * shape.perimeter + ends * M_PI * r * r;
+  shape.outline_perimeter = 2 * shape.perimeter + ends * 2 * M_PI * r;
+  return shape;
+}
+
 }  // namespace
+
+double CellShape::circularity() const {
+  return outline_perimeter > 0 ? 4 * M_PI * outline_area / (outline_perimeter * outline_perimeter) : 0;
+}
 
 CellShape cell_shape(const Sample& sample, const std::vector<Vec2>& x, Index cell) {
   const Index begin = sample.cell_begin[cell], size = sample.cell_size(cell);
@@ -72,9 +103,18 @@ std::vector<CellShape> cell_shapes(const Sample& sample, const std::vector<Vec2>
   return shapes;
 }
 
+std::vector<CellShape> cell_shapes(const FrameView& view) {
+  std::vector<CellShape> shapes;
+  shapes.reserve(view.sample.cells());
+  for (Index c = 0; c < view.sample.cells(); ++c)
+    shapes.push_back(view.broken_bars() && view.broken_bars()->opened(c) ? opened_shape(view, c)
+                                                                         : cell_shape(view.sample, view.x, c));
+  return shapes;
+}
+
 double tile_area(const Sample& sample, const CellShape& shape, Index cell) {
   if (sample.tile_area[cell] > 0 && sample.rest_area[cell] > 0)
-    return sample.tile_area[cell] * shape.area / sample.rest_area[cell];
+    return sample.tile_area[cell] * (shape.opened ? 1 : shape.area / sample.rest_area[cell]);
   return shape.outline_area;
 }
 

@@ -17,7 +17,7 @@ std::vector<Stress> cell_stress(const FrameView& view, const std::vector<CellSha
   if (const std::vector<double>* link_force = view.doubles("link_force"))
     for (std::size_t l = 0; l < sample.links.size(); ++l) {
       if (!view.intact(static_cast<Index>(l))) continue;
-      const Link& link = sample.links[l];
+      const Link link = view.link(static_cast<Index>(l));
       const LinkFrame frame = link_frame(link, view.x);
       const Vec2 on_a = (*link_force)[2 * l] * frame.n + (*link_force)[2 * l + 1] * frame.t;
       const Vec2 middle = link_middle(link, view.x);

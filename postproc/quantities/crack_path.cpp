@@ -187,7 +187,7 @@ CrackLine CrackFinder::make_line(const FrameView& view, const std::vector<Run>& 
       line.points.push_back(link_middle(link, view.x));
       line.reference.push_back(link_middle(link, sample_->x));
       line.length += link.length;
-      line.opening += link.length * link_opening(link, view.x);
+      line.opening += link.length * link_opening(view.link(l), view.x);
       const double time = break_time ? (*break_time)[l] : view.frame.time;
       line.first_time = std::min(line.first_time, time), line.last_time = std::max(line.last_time, time);
     }

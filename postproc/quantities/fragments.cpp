@@ -7,61 +7,66 @@
 namespace lamella {
 namespace {
 
-UnionFind joined_cells(const FrameView& view, Index more) {
+UnionFind joined_pieces(const FrameView& view, const Pieces& pieces, Index more) {
   const Sample& sample = view.sample;
-  UnionFind cells(sample.cells() + more);
+  UnionFind joined(pieces.count + more);
   for (std::size_t l = 0; l < sample.links.size(); ++l)
-    if (view.intact(static_cast<Index>(l))) {
-      const Wall& wall = sample.walls[sample.links[l].wall];
-      cells.join(wall.cell_a, wall.cell_b);
-    }
-  return cells;
+    if (view.intact(static_cast<Index>(l)))
+      joined.join(pieces.of_node[sample.links[l].a], pieces.of_node[sample.links[l].b]);
+  return joined;
 }
 
 }  // namespace
 
 Fragments fragments(const FrameView& view) {
-  const Index n = view.sample.cells();
-  UnionFind cells = joined_cells(view, 0);
-  std::vector<Index> size(n, 0), roots;  // roots in the order of their lowest cell
-  for (Index c = 0; c < n; ++c)
-    if (size[cells.root(c)]++ == 0) roots.push_back(cells.root(c));
+  const Sample& sample = view.sample;
+  const Pieces pieces = pieces_of(sample, view.broken_bars());
+  UnionFind joined = joined_pieces(view, pieces, 0);
+  std::vector<Index> size(pieces.count, 0), roots;  // roots in the order of their lowest piece
+  for (Index p = 0; p < pieces.count; ++p)
+    if (size[joined.root(p)]++ == 0) roots.push_back(joined.root(p));
   std::stable_sort(roots.begin(), roots.end(), [&](Index a, Index b) { return size[a] > size[b]; });
-  std::vector<std::int32_t> rank(n, 0);
+  std::vector<std::int32_t> rank(pieces.count, 0);
   for (std::size_t k = 0; k < roots.size(); ++k) rank[roots[k]] = static_cast<std::int32_t>(k);
+
   Fragments result;
   result.count = static_cast<int>(roots.size());
-  result.id.resize(n);
-  for (Index c = 0; c < n; ++c) result.id[c] = rank[cells.root(c)];
+  for (Index i = 0; i < sample.nodes(); ++i) result.of_node.push_back(rank[joined.root(pieces.of_node[i])]);
+  for (Index c = 0; c < sample.cells(); ++c) {
+    std::vector<std::int32_t> own(result.of_node.begin() + sample.cell_begin[c],
+                                  result.of_node.begin() + sample.cell_begin[c + 1]);
+    std::sort(own.begin(), own.end());
+    std::int32_t best = own.front();
+    std::ptrdiff_t most = 0;
+    for (auto at = own.begin(); at != own.end();) {
+      const auto end = std::upper_bound(at, own.end(), *at);
+      if (end - at > most) most = end - at, best = *at;
+      at = end;
+    }
+    result.id.push_back(best);
+  }
   return result;
 }
 
-std::vector<std::uint8_t> cell_sides(const Sample& sample) {
-  std::vector<std::uint8_t> sides(sample.cells(), 0);
-  for (Index c = 0; c < sample.cells(); ++c)
-    for (Index i = sample.cell_begin[c]; i < sample.cell_begin[c + 1]; ++i) sides[c] |= sample.side[i];
-  return sides;
-}
-
 bool separated(const FrameView& view, int axis) {
-  const Index n = view.sample.cells();
+  const Sample& sample = view.sample;
   const SidePair grip = sides_across(axis);
-  const std::vector<std::uint8_t> sides = cell_sides(view.sample);
-  UnionFind cells = joined_cells(view, 2);
+  const Pieces pieces = pieces_of(sample, view.broken_bars());
+  const Index n = pieces.count;
+  UnionFind joined = joined_pieces(view, pieces, 2);
   bool low = false, high = false;
-  for (Index c = 0; c < n; ++c) {
-    if (sides[c] & grip.low) cells.join(c, n), low = true;
-    if (sides[c] & grip.high) cells.join(c, n + 1), high = true;
+  for (Index i = 0; i < sample.nodes(); ++i) {
+    if (sample.side[i] & grip.low) joined.join(pieces.of_node[i], n), low = true;
+    if (sample.side[i] & grip.high) joined.join(pieces.of_node[i], n + 1), high = true;
   }
-  return low && high && cells.root(n) != cells.root(n + 1);
+  return low && high && joined.root(n) != joined.root(n + 1);
 }
 
 int through_cracks(const FrameView& view, const Fragments& pieces, int axis) {
   if (!separated(view, axis)) return 0;
   const SidePair grip = sides_across(axis), free = sides_across(1 - axis);
-  const std::vector<std::uint8_t> sides = cell_sides(view.sample);
   std::vector<std::uint8_t> of_piece(pieces.count, 0);
-  for (Index c = 0; c < view.sample.cells(); ++c) of_piece[pieces.id[c]] |= sides[c];
+  for (Index i = 0; i < view.sample.nodes(); ++i) of_piece[pieces.of_node[i]] |= view.sample.side[i];
   const auto between = [&](std::uint8_t s) {
     return !(s & (grip.low | grip.high)) && (s & free.low) && (s & free.high);
   };

@@ -1,4 +1,4 @@
-// Which cells still hold together: components of shells joined by intact links.
+// What still holds together: components of pieces of shells (a whole shell, or what broken bars have cut it into) joined by intact links.
 #pragma once
 #include <vector>
 
@@ -7,7 +7,8 @@
 namespace lamella {
 
 struct Fragments {
-  std::vector<std::int32_t> id;  // per cell; 0 is the fragment of most cells, ties by the lowest cell
+  std::vector<std::int32_t> of_node;  // 0 is the fragment of most pieces, ties by the lowest node
+  std::vector<std::int32_t> id;       // per cell: that of most of its nodes, ties by the lowest fragment
   int count = 0;
 };
 
@@ -18,9 +19,6 @@ struct SidePair {
   std::uint8_t low, high;
 };
 inline SidePair sides_across(int axis) { return axis == 0 ? SidePair{kLeft, kRight} : SidePair{kBottom, kTop}; }
-
-/// Bits of the sides that each cell's nodes belong to.
-std::vector<std::uint8_t> cell_sides(const Sample& sample);
 
 /// True when no path of shells and intact links joins the two sides across `axis`, each side counted as one piece.
 /// False when the sample has no cells at one of them.

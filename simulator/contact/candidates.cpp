@@ -27,7 +27,7 @@ class SegmentGrid {
     const Index nodes = sample.nodes();
     for (Index c = 0; c < sample.cells(); ++c)
       for (Index s = sample.cell_begin[c]; s < sample.cell_begin[c + 1]; ++s)
-        if (sample.starts_segment(c, s))
+        if (sample.starts_segment(c, s) && !rules.gone(s))
           mean += (x.at(sample.next(c, s)) - x.at(s)).lpNorm<1>() + 2 * (sample.radius[c] + largest + rules.skin);
     // No more squares than a few per node, however far the pieces have flown apart.
     const Vec2 size = hi - lo_;
@@ -62,7 +62,7 @@ class SegmentGrid {
     for (Index c = 0; c < sample.cells(); ++c) {
       const double grow = sample.radius[c] + largest + rules.skin;
       for (Index s = sample.cell_begin[c]; s < sample.cell_begin[c + 1]; ++s) {
-        if (!sample.starts_segment(c, s)) continue;
+        if (!sample.starts_segment(c, s) || rules.gone(s)) continue;
         const Vec2 a = x.at(s), b = x.at(sample.next(c, s));
         const Vec2 lo = a.cwiseMin(b).array() - grow, hi = a.cwiseMax(b).array() + grow;
         const Index i1 = slot(hi.x(), lo_.x(), width_, nx_), j1 = slot(hi.y(), lo_.y(), width_, ny_);
@@ -117,14 +117,24 @@ SelfReach::SelfReach(const Sample& sample) : before_(sample.nodes(), 2), after_(
   }
 }
 
-bool SelfReach::ignores(const Sample& sample, Index cell, Index node, Index segment) const {
+bool SelfReach::ignores(const Sample& sample, const BrokenBars* broken, Index cell, Index node, Index segment) const {
   const Index size = sample.cell_size(cell);
   Index ahead = segment - node, behind = node - segment - 1;  // whole segments between the two
   if (sample.closed[cell]) {
     if (ahead < 0) ahead += size;
     if (behind < 0) behind += size;
   }
-  return (ahead >= 0 && ahead < after_[node]) || (behind >= 0 && behind < before_[node]);
+  const bool near_ahead = ahead >= 0 && ahead < after_[node], near_behind = behind >= 0 && behind < before_[node];
+  if ((!near_ahead && !near_behind) || !broken || !broken->opened(cell)) return near_ahead || near_behind;
+  const auto joined = [&](Index from, Index to) {  // by the bars from node `from` on to node `to`
+    for (; from != to; from = sample.next(cell, from))
+      if (broken->gone(from)) return false;
+    return true;
+  };
+  const Index next = sample.next(cell, segment);
+  if ((near_ahead && joined(node, segment)) || (near_behind && joined(next, node))) return true;
+  const double reach = 2 * sample.radius[cell];
+  return squared_distance(sample.x[node], sample.x[segment], sample.x[next]) < reach * reach;
 }
 
 LinkedNodes::LinkedNodes(const Sample& sample, const std::vector<Index>& cell_of)
@@ -152,6 +162,7 @@ std::size_t LinkedNodes::bytes() const {
 }
 
 bool CandidateRules::candidates(const Field& x, Index node, Index cell, Index segment) const {
+  if (gone(segment)) return false;
   const Index own = cell_of[node];
   const double reach = sample.radius[own] + sample.radius[cell] + skin;
   const Vec2 p = x.at(node), a = x.at(segment), b = x.at(sample.next(cell, segment));
@@ -159,7 +170,7 @@ bool CandidateRules::candidates(const Field& x, Index node, Index cell, Index se
   if (std::min(a.x(), b.x()) - p.x() >= reach || p.x() - std::max(a.x(), b.x()) >= reach ||
       std::min(a.y(), b.y()) - p.y() >= reach || p.y() - std::max(a.y(), b.y()) >= reach)
     return false;
-  if (own == cell && self_reach.ignores(sample, cell, node, segment)) return false;
+  if (own == cell && self_reach.ignores(sample, broken, cell, node, segment)) return false;
   if (!(squared_distance(p, a, b) < reach * reach)) return false;
   return own == cell || !linked.ignores(sample, node, cell, segment);
 }

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "generator/sample/sample.h"
+#include "generator/sample/broken_bars.h"
 #include "simulator/positions.h"
 
 namespace lamella {
@@ -32,7 +32,8 @@ struct CandidateList {
 class SelfReach {
  public:
   explicit SelfReach(const Sample& sample);
-  bool ignores(const Sample& sample, Index cell, Index node, Index segment) const;
+  /// `broken` may be null. What lies beyond a broken bar is no neighbour any more, unless it lay nearer than 2 r at rest.
+  bool ignores(const Sample& sample, const BrokenBars* broken, Index cell, Index node, Index segment) const;
   std::size_t bytes() const { return (before_.size() + after_.size()) * sizeof(Index); }
 
  private:
@@ -67,8 +68,10 @@ struct CandidateRules {
   const std::vector<std::uint8_t>& bare;  // per cell
   const SelfReach& self_reach;
   const LinkedNodes& linked;
-  double skin = 0;  // [m]
+  double skin = 0;                     // [m]
+  const BrokenBars* broken = nullptr;  // null: all bars stand
 
+  bool gone(Index segment) const { return broken && broken->gone(segment); }
   /// Whether the list must name this node and segment when the nodes are at x.
   bool candidates(const Field& x, Index node, Index cell, Index segment) const;
 };

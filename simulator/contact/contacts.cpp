@@ -108,7 +108,7 @@ double Contacts::dashpot(const Pair& pair) const {
 Contacts::Touch Contacts::touch(const CandidateList& list, const Pair& pair, const Field& x) const {
   Touch out;
   const double range = reach(pair);
-  out.feet = find_feet(sample_, x, pair.node, pair.cell, list.of(pair), range);
+  out.feet = find_feet(sample_, x, pair.node, pair.cell, list.of(pair), range, rules_.broken);
   if (out.feet.count == 0) return out;
   out.overlap = overlap(out.feet, range);
   out.k = stiffness(pair);
@@ -305,6 +305,12 @@ void Contacts::advance() {
     dissipated_ += slid_[k];
     slid_[k] = 0;
   }
+}
+
+void Contacts::lose(Index bar, const Field& x) {
+  for (std::size_t k = 0; k < spring_.size(); ++k)
+    if (spring_[k].acts() && spring_[k].segment == bar) spring_[k] = trial_[k] = FrictionSpring{};
+  rebuild(x);
 }
 
 double Contacts::stored_in_friction() const {

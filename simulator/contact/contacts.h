@@ -74,6 +74,12 @@ class Contacts final : public Term {
   /// With what energy the two nodes of this link press each other's cell at x, by the rules as they are now [J].
   double pressing_across(Index link, const Field& x) const;
 
+  // ---- broken bars ----
+  /// Bars that are gone touch nothing; `broken` must outlive this. Before the first step, or with `lose`.
+  void watch(const BrokenBars& broken) { rules_.broken = &broken, stale_ = true; }
+  /// One of the bars that are watched is gone, now that nodes are at x; what was anchored to it goes with it.
+  void lose(Index bar, const Field& x);
+
   /// A node inside a closed cell where it was not at the beginning, or a wall across a chain: an unsigned distance pushes the wrong way.
   std::optional<std::string> fault(const Field& x) const;
 
@@ -116,6 +122,7 @@ class Contacts final : public Term {
   std::optional<Index> place_of(const Pair& pair) const;
   Index list_pair(Index node, Index cell);
   std::vector<std::pair<Index, Index>> nodes_inside(const Field& x) const;
+  bool opened(Index cell) const { return rules_.broken && rules_.broken->opened(cell); }
 
   const Sample& sample_;
   ContactParameters p_;

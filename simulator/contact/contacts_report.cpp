@@ -38,7 +38,7 @@ std::vector<std::pair<Index, Index>> Contacts::nodes_inside(const Field& x) cons
   const auto boxes = bounding_boxes(sample_, x);
   std::vector<std::pair<Index, Index>> found;
   for_each_meeting(boxes, [&](Index guest, Index host) {
-    if (!sample_.closed[host]) return;
+    if (!sample_.closed[host] || opened(host)) return;
     for (Index i = sample_.cell_begin[guest]; i < sample_.cell_begin[guest + 1]; ++i)
       if (boxes[host].contains(x.at(i)) && inside(sample_, x, host, x.at(i))) found.emplace_back(i, host);
   });
@@ -57,14 +57,15 @@ std::optional<std::string> Contacts::fault(const Field& x) const {
   const auto boxes = bounding_boxes(sample_, x);
   std::optional<std::string> message;
   for_each_meeting(boxes, [&](Index guest, Index chain) {
-    if (message || sample_.closed[chain]) return;
+    if (message || (sample_.closed[chain] && !opened(chain))) return;
     for (Index i = sample_.cell_begin[guest]; i < sample_.cell_begin[guest + 1]; ++i) {
-      if (!sample_.starts_segment(guest, i)) continue;
+      if (!sample_.starts_segment(guest, i) || rules_.gone(i)) continue;
       const Vec2 a = x.at(i), b = x.at(sample_.next(guest, i));
       const Box& box = boxes[chain];
       if ((a.cwiseMax(b).array() < box.lo.array()).any() || (a.cwiseMin(b).array() > box.hi.array()).any()) continue;
-      for (Index s = sample_.cell_begin[chain]; s + 1 < sample_.cell_begin[chain + 1]; ++s)
-        if (!message && cross_each_other(a, b, x.at(s), x.at(s + 1)))
+      for (Index s = sample_.cell_begin[chain]; s < sample_.cell_begin[chain + 1]; ++s)
+        if (!message && sample_.starts_segment(chain, s) && !rules_.gone(s) &&
+            cross_each_other(a, b, x.at(s), x.at(sample_.next(chain, s))))
           message = fmt::format(
               "the wall of cell {} behind node {}, at ({:.6g}, {:.6g}) m, has gone through the wall of cell {}; use a "
               "stiffer contact, a larger wall radius, slower loading or a smaller step",
@@ -155,7 +156,8 @@ void add_foot_blocks(Index node, const Foot& foot, const Eigen::Matrix2d& m, Sti
 // Where a node has several feet it may be held in all directions (a crease), so each counts in all directions.
 void Contacts::add_possible_stiffness(const Field& x, StiffnessSink& sink) const {
   for (const Pair& pair : list_.pairs) {
-    const Feet feet = find_feet(sample_, x, pair.node, pair.cell, list_.of(pair), reach(pair) + 2 * rules_.skin);
+    const Feet feet =
+        find_feet(sample_, x, pair.node, pair.cell, list_.of(pair), reach(pair) + 2 * rules_.skin, rules_.broken);
     const double k = stiffness(pair), k_t = p_.friction > 0 ? tangential_stiffness(pair) : 0.0;
     for (int f = 0; f < feet.count; ++f) {
       const Vec2 &n = feet.foot[f].n, t = left_of(n);
@@ -168,7 +170,8 @@ void Contacts::add_possible_stiffness(const Field& x, StiffnessSink& sink) const
 
 void Contacts::add_possible_damping(const Field& x, StiffnessSink& sink) const {
   for (const Pair& pair : list_.pairs) {
-    const Feet feet = find_feet(sample_, x, pair.node, pair.cell, list_.of(pair), reach(pair) + 2 * rules_.skin);
+    const Feet feet =
+        find_feet(sample_, x, pair.node, pair.cell, list_.of(pair), reach(pair) + 2 * rules_.skin, rules_.broken);
     for (int f = 0; f < feet.count; ++f)
       add_foot_blocks(pair.node, feet.foot[f], dashpot(pair) * feet.foot[f].n * feet.foot[f].n.transpose(), sink);
   }

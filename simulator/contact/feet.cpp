@@ -28,7 +28,8 @@ void keep(Feet& feet, const Foot& foot) {
 }  // namespace
 
 Feet find_feet(const Sample& sample, const Field& x, Index node, Index cell, std::span<const Index> segments,
-               double reach) {
+               double reach, const BrokenBars* broken) {
+  const auto stands = [&](Index segment) { return !broken || !broken->gone(segment); };
   Feet feet;
   const Vec2 p = x.at(node);
   const double reach2 = reach * reach;
@@ -48,9 +49,9 @@ Feet find_feet(const Sample& sample, const Field& x, Index node, Index cell, std
     if (!(d2 < reach2)) continue;
     if (t == 0) {  // the vertex belongs to the segment that starts there
       const bool first = !sample.closed[cell] && s == sample.cell_begin[cell];
-      if (!first && projection(p, x.at(sample.prev(cell, s)), a) < 1) continue;
+      if (!first && stands(sample.prev(cell, s)) && projection(p, x.at(sample.prev(cell, s)), a) < 1) continue;
     } else if (t == 1) {  // unless that one does not exist, or is not looked at
-      if (sample.starts_segment(cell, next)) {
+      if (sample.starts_segment(cell, next) && stands(next)) {
         const bool looked_at = (k + 1 < segments.size() && segments[k + 1] == next) || segments[0] == next;
         if (looked_at || projection(p, b, x.at(sample.next(cell, next))) > 0) continue;
       }

@@ -7,7 +7,7 @@
 #include <array>
 #include <span>
 
-#include "generator/sample/sample.h"
+#include "generator/sample/broken_bars.h"
 #include "simulator/positions.h"
 
 namespace lamella {
@@ -30,9 +30,10 @@ struct Feet {
   int count = 0;
 };
 
-/// Feet of `node` on those `segments` of `cell` that are nearer than `reach`, in the order of the segments.
+/// Feet of `node` on those `segments` of `cell` that are nearer than `reach`, in the order of the segments. A bar that is broken is no
+/// segment, and its nodes are ends; none is with nullptr.
 Feet find_feet(const Sample& sample, const Field& x, Index node, Index cell, std::span<const Index> segments,
-               double reach);
+               double reach, const BrokenBars* broken = nullptr);
 
 /// Components of the node, of the segment's first node and of its second.
 using Vector6 = Eigen::Matrix<double, 6, 1>;

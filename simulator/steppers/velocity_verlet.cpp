@@ -35,11 +35,8 @@ VelocityVerlet::VelocityVerlet(Model& model, std::vector<Load>& loads, State& st
   boundary_.resize(blocks);
   broken_.resize(layout.chunks());
   dropped_kinetic_.assign(layout.chunks(), 0.0);
-  incoming_.resize(layout.chunks());
-  if (model.links)
-    for (Index b = 0; b < blocks; ++b)
-      for (Index i = model.links->middle(b); i < model.links->end(b); ++i)
-        incoming_[layout.chunk_of_block(layout.block_of_cell(model.links->cell_b(i)))].emplace_back(b, i);
+  if (model.rupture) broken_walls_.resize(layout.chunks());
+  list_incoming();
 
   fully_held_.assign(state.x.size(), 0);
   runs_.resize(blocks);
@@ -65,11 +62,20 @@ VelocityVerlet::VelocityVerlet(Model& model, std::vector<Load>& loads, State& st
   for (auto& mask : fully_held_) mask = mask == 3;
 }
 
+void VelocityVerlet::list_incoming() {
+  const ShellLayout& layout = model_.layout;
+  incoming_.assign(layout.chunks(), {});
+  if (!model_.links) return;
+  for (Index b = 0; b < static_cast<Index>(layout.blocks().size()); ++b)
+    for (Index i = model_.links->middle(b); i < model_.links->end(b); ++i)
+      incoming_[layout.chunk_of_block(layout.block_of_cell(model_.links->cell_b(i)))].emplace_back(b, i);
+}
+
 // A measured configuration is weighed before its breaks: 1/2 m v(n-1/2) . v(n+1/2) with the kick that it would have had whole.
 double VelocityVerlet::dropped_kinetic(const std::vector<Break>& breaks, std::size_t first, double kick) const {
   double sum = 0;
   for (std::size_t k = first; k < breaks.size(); ++k) {
-    const Link& link = model_.sample.links[breaks[k].link];
+    const Link& link = model_.links->link(breaks[k].link);
     const Field& v = state_.v;
     sum += 0.5 * kick * breaks[k].dropped_force.dot(v.at(link.a) - v.at(link.b));
     sum += 0.5 * kick *
@@ -106,6 +112,48 @@ double VelocityVerlet::hand_over(const Break& event, double dt) {
   const double pressing =
       mean([&] { return contacts.pressing_across(event.link, x) - model_.links->left_to_contact(event, x); });
   return pressing - ignoring + rubbing - model_.links->left_to_friction(event);
+}
+
+// Takes broken bars out of the model. Links beside them get another frame, or none; contact loses a segment, and ends meet what they
+// ignored. These forces act in full up to this step and as they are then from the next one on, so that what they lose is the mean of
+// before and after the drift: the mean of the works of both kicks, second order in the step.
+void VelocityVerlet::end_walls(std::vector<WallBreak>& now, double dt) {
+  WallRupture& rupture = *model_.rupture;
+  Contacts* const contacts = model_.contacts.get();
+  CohesiveLinks* const links = model_.links.get();
+  const Field& x = state_.x;
+  Field before(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i)
+    before.x[i] = x.x[i] - dt * state_.v.x[i], before.y[i] = x.y[i] - dt * state_.v.y[i];
+  const auto held = [&] {
+    double sum = 0;
+    if (links) sum += 0.5 * (links->energy(before) + links->energy(x));
+    if (contacts) sum += 0.5 * (contacts->energy(before) + contacts->energy(x));
+    return sum;
+  };
+  double last = held();
+  for (WallBreak& event : now) {
+    rupture.end(event.cell, event.bar, state_.time);
+    double of_links = 0;  // of those that have lost their frame
+    if (links) {
+      for (const Index l : links->without_tangent(rupture.broken())) {
+        breaks_.push_back(links->cut(l, before, x));
+        links->set_break_time(l, state_.time);
+        of_links += breaks_.back().energy;
+        if (contacts) contacts->release(l, x, breaks_.back().friction_force);
+      }
+      links->follow(rupture.broken());
+    }
+    if (contacts) contacts->lose(event.bar, x);
+    const double next = held();
+    event.energy += last - next - of_links;
+    last = next;
+    booked_.fracture += event.energy + of_links;
+    booked_.pressure += event.pressure_work;
+    wall_breaks_.push_back(event);
+  }
+  if (links) list_incoming();
+  if (contacts) moved_ = 0;
 }
 
 // Links whose cells lie in different chunks, while all positions are still those of this step.
@@ -165,6 +213,14 @@ void VelocityVerlet::sweep_block(Index b, Worker& w, double dt, double kick, Fie
   w.scratch.add_section_forces(sample, f_);
   for (ShellTerm* term : shell_terms_)
     if (term->has_history()) term->commit_block(b, w.scratch);
+  if (model_.rupture && model_.rupture->exceeded(w.scratch)) {
+    const Index chunk = model_.layout.chunk_of_block(b);
+    const auto drop = [&](Index node, const Vec2& force) {
+      f_.add(node, -force);
+      if (!fully_held_[node]) dropped_kinetic_[chunk] += 0.5 * kick * force.dot(v.at(node));
+    };
+    model_.rupture->break_exceeded(w.scratch, drop, broken_walls_[chunk]);
+  }
   if constexpr (Measured) {
     double square = 0;
     for (Index c = block.cell_begin; c < block.cell_end; ++c) {
@@ -339,6 +395,11 @@ void VelocityVerlet::advance(double dt, double kick, Field* force_on_node) {
     booked_.fracture += event.energy;
     breaks_.push_back(event);
   }
+  if (model_.rupture) {
+    std::vector<WallBreak> walls;  // chunk by chunk: in the order of their bars
+    for (auto& list : broken_walls_) walls.insert(walls.end(), list.begin(), list.end()), list.clear();
+    if (!walls.empty()) end_walls(walls, dt);
+  }
   state_.time += dt;
   ++state_.step;
   ++steps_;
@@ -366,6 +427,7 @@ Measurement VelocityVerlet::measured_step(double dt, double kick, Field* force_o
   Measurement m;
   m.works = works_at_start();
   m.works.plastic = history.plastic, m.works.friction = history.friction, m.works.fracture = history.fracture;
+  m.works.pressure = history.pressure;
   m.load_force.assign(loads_.size(), Vec2::Zero());
   for (const auto& runs : runs_)
     for (const Run& run : runs) m.load_force[run.load] += run.reaction;
@@ -383,6 +445,8 @@ Measurement VelocityVerlet::measured_step(double dt, double kick, Field* force_o
 
 std::vector<Break> VelocityVerlet::take_breaks() { return std::exchange(breaks_, {}); }
 
+std::vector<WallBreak> VelocityVerlet::take_wall_breaks() { return std::exchange(wall_breaks_, {}); }
+
 void VelocityVerlet::save(ArraySet& restart) const {
   std::vector<double> loads, damping;
   for (const auto& runs : runs_)
@@ -390,7 +454,7 @@ void VelocityVerlet::save(ArraySet& restart) const {
   for (const BlockSums& s : sums_) damping.push_back(s.damping);
   restart.add({"stepper_load_work", "J", "run", 1, std::move(loads)});
   restart.add({"stepper_damping", "J", "block", 1, std::move(damping)});
-  restart.add({"stepper_booked", "J", "model", 1, std::vector<double>{booked_.fracture}});
+  restart.add({"stepper_booked", "J", "model", 1, std::vector<double>{booked_.fracture, booked_.pressure}});
 }
 
 void VelocityVerlet::restore(const ArraySet& restart) {
@@ -402,6 +466,7 @@ void VelocityVerlet::restore(const ArraySet& restart) {
   for (std::size_t b = 0; b < sums_.size(); ++b) sums_[b].damping = damping.at(b);
   const auto& booked = restart.doubles("stepper_booked");
   booked_.fracture = booked.at(0);
+  if (booked.size() > 1) booked_.pressure = booked[1];  // not in files of before walls could break
 }
 
 }  // namespace lamella

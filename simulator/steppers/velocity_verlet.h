@@ -23,9 +23,10 @@ struct State {
 
 /// What left the mechanical energy, or entered it, since the stepper was made [J].
 struct Works {
-  double loads = 0;     // work of grips and prescribed forces
-  double pressure = 0;  // work of prescribed pressures; booked by whoever prescribes them
-  double damping = 0;   // drag, dashpots, contact damping
+  double loads = 0;  // work of grips and prescribed forces
+  double pressure =
+      0;  // of pressures that were held in cells that have opened; that of a pressure's change is booked by who changes it
+  double damping = 0;  // drag, dashpots, contact damping
   double friction = 0;
   double plastic = 0;
   double fracture = 0;
@@ -50,6 +51,7 @@ class VelocityVerlet {
 
   /// Breaks since the last call, in order of time, then link.
   std::vector<Break> take_breaks();
+  std::vector<WallBreak> take_wall_breaks();
   /// Number of steps so far.
   std::int64_t steps() const { return steps_; }
   const std::vector<std::uint8_t>& fully_held() const { return fully_held_; }
@@ -77,6 +79,8 @@ class VelocityVerlet {
   Works works_at_start() const;
   double dropped_kinetic(const std::vector<Break>& breaks, std::size_t first, double kick) const;
   double hand_over(const Break& event, double dt);
+  void list_incoming();
+  void end_walls(std::vector<WallBreak>& now, double dt);
 
   Model& model_;
   std::vector<Load>& loads_;
@@ -89,10 +93,12 @@ class VelocityVerlet {
   std::vector<BlockSums> sums_;         // per block
   std::vector<LinkForces> boundary_;    // per block: its links to other chunks
   std::vector<std::vector<std::pair<Index, Index>>>
-      incoming_;                            // per chunk: (block, position) of links that reach it from others
-  std::vector<std::vector<Break>> broken_;  // per chunk, in this step
-  std::vector<double> dropped_kinetic_;     // per chunk, in this step [J]
+      incoming_;                                      // per chunk: (block, position) of links that reach it from others
+  std::vector<std::vector<Break>> broken_;            // per chunk, in this step
+  std::vector<std::vector<WallBreak>> broken_walls_;  // likewise; empty where walls do not break
+  std::vector<double> dropped_kinetic_;               // per chunk, in this step [J]
   std::vector<Break> breaks_;
+  std::vector<WallBreak> wall_breaks_;
   std::vector<std::uint8_t> fully_held_;
   Works booked_;      // all but the cumulative sums of blocks and runs
   double moved_ = 0;  // bound on any node's way since the candidates were last checked [m]

@@ -73,9 +73,10 @@ void Bars::for_each_bar(const Field& x, F&& visit) const {
   const Sample& s = layout_.sample();
   for (Index c = 0; c < s.cells(); ++c)
     for (Index i = s.cell_begin[c]; i < s.cell_begin[c + 1]; ++i) {
-      if (!s.starts_segment(c, i)) continue;
+      const Index slot = ShellLayout::slot(c, i);
+      if (stiffness_[slot] == 0) continue;
       const Index j = s.next(c, i);
-      visit(c, i, j, ShellLayout::slot(c, i), (x.at(j) - x.at(i)).norm());
+      visit(c, i, j, slot, (x.at(j) - x.at(i)).norm());
     }
 }
 
@@ -95,7 +96,7 @@ std::vector<double> Bars::stored(const Field& x) const {
   for_each_bar(x, [&](Index c, Index, Index, Index slot, double length) {
     double tension = stiffness_[slot] * (length - rest_length_[slot]);
     if (!yield_.empty()) tension = returned(tension - stiffness_[slot] * plastic_[slot], yield_[slot]);
-    if (stiffness_[slot] > 0) energy[c] += 0.5 * tension * tension / stiffness_[slot];
+    energy[c] += stored_at(slot, tension);
   });
   return energy;
 }

@@ -24,12 +24,17 @@ class Bars final : public ShellTerm {
   void add_output(const Field& x, ArraySet& frame) const override;
   std::size_t bytes() const override;
 
+  /// What the bar at this slot stores at this tension [J].
+  double stored_at(Index slot, double tension) const { return 0.5 * tension * tension / stiffness_[slot]; }
+  /// The bar is gone: from now on it carries nothing.
+  void end(Index cell, Index node) { layout_.set_padded(stiffness_, cell, node, 0.0); }
+
  private:
   template <class F>
   void for_each_bar(const Field& x, F&& visit) const;  // visit(cell, node, next node, slot, length)
 
   // padded layout
-  std::vector<double> stiffness_;    // k_s [N/m]; 0 where no segment starts
+  std::vector<double> stiffness_;    // k_s [N/m]; 0 where no segment starts, or it has broken
   std::vector<double> rest_length_;  // l0 [m]
   std::vector<double> yield_;        // F_Y [N]; empty: elastic
   std::vector<double> plastic_;      // l_p [m]; empty: elastic

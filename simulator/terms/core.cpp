@@ -15,6 +15,29 @@ double Core::area(Index c, const Field& x) const {
   return 0.5 * twice;
 }
 
+double Core::area(Index c, const ShellScratch& w) const {
+  const Sample& s = layout_.sample();
+  const Index at = ShellLayout::slot(c, s.cell_begin[c]) - w.block.slot_begin, end = at + s.cell_size(c);
+  double twice = 0;
+  for (Index k = at; k < end; ++k)
+    twice += (w.px[k] - w.px[at]) * (w.py[k + 1] - w.py[at]) - (w.py[k] - w.py[at]) * (w.px[k + 1] - w.px[at]);
+  return 0.5 * twice;
+}
+
+Core::Released Core::released(Index c, const ShellScratch& w) const {
+  const double rest = layout_.sample().rest_area[c], a = area(c, w), p = pressure_at(c, a);
+  if (p_.modulus[c] > 0) return {.energy = 0.5 * p * p * p_.depth[c] * rest / p_.modulus[c], .work = 0};
+  return {.energy = 0, .work = p * p_.depth[c] * (a - rest)};
+}
+
+void Core::end(Index c) {
+  if (!present(c)) return;
+  left_.resize(layout_.sample().cells(), 0.0);
+  const double p0 = p_.pressure[c], k = p_.modulus[c];
+  if (k > 0) left_[c] = -0.5 * p0 * p0 * p_.depth[c] * layout_.sample().rest_area[c] / k;
+  p_.depth[c] = 0;
+}
+
 double Core::pressure_at(Index c, double a) const {
   return p_.pressure[c] - p_.modulus[c] * (a / layout_.sample().rest_area[c] - 1);
 }
@@ -40,7 +63,8 @@ void Core::add_to_block(ShellScratch& w, Field& f) const {
 }
 
 std::vector<double> Core::stored(const Field& x) const {
-  std::vector<double> energy(layout_.sample().cells(), 0.0);
+  std::vector<double> energy = left_;
+  energy.resize(layout_.sample().cells(), 0.0);
   for (Index c = 0; c < layout_.sample().cells(); ++c) {
     if (!present(c)) continue;
     const double rest = layout_.sample().rest_area[c], da = area(c, x) - rest;
@@ -94,6 +118,6 @@ void Core::add_output(const Field& x, ArraySet& frame) const {
   frame.add({"core_energy", "J", "cell", 1, stored(x)});
 }
 
-std::size_t Core::bytes() const { return sizeof(double) * 3 * p_.modulus.size(); }
+std::size_t Core::bytes() const { return sizeof(double) * (3 * p_.modulus.size() + left_.size()); }
 
 }  // namespace lamella

@@ -41,6 +41,11 @@ void Dashpots::add_to_block(ShellScratch& w) const {
   }
 }
 
+void Dashpots::end(Index cell, Index node) {
+  layout_.set_padded(bar_, cell, node, 0.0);
+  for (const Index hinge : {node, layout_.sample().next(cell, node)}) layout_.set_padded(hinge_, cell, hinge, 0.0);
+}
+
 void Dashpots::add_force(const Field& x, const Field& v, Field& f) const {
   ShellScratch scratch(layout_);
   for (const auto& block : layout_.blocks()) {

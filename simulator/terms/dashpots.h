@@ -17,6 +17,8 @@ class Dashpots {
   void add_force(const Field& x, const Field& v, Field& f) const;
   /// d(-force)/dv, for the stable step.
   void add_damping(const Field& x, StiffnessSink& sink) const;
+  /// The bar is gone, and so are the hinges at its ends.
+  void end(Index cell, Index node);
   std::size_t bytes() const { return sizeof(double) * (bar_.size() + hinge_.size()); }
 
  private:

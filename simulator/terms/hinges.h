@@ -25,6 +25,12 @@ class Hinges final : public ShellTerm {
   void add_output(const Field& x, ArraySet& frame) const override;
   std::size_t bytes() const override;
 
+  bool present(Index slot) const { return stiffness_[slot] != 0; }
+  /// What the hinge at this slot stores at this moment [J].
+  double stored_at(Index slot, double moment) const { return 0.5 * moment * moment / stiffness_[slot]; }
+  /// One of its two segments is gone: from now on it carries nothing.
+  void end(Index cell, Index node) { layout_.set_padded(stiffness_, cell, node, 0.0); }
+
  private:
   template <class F>
   void for_each_hinge(const Field& x, F&& visit) const;  // visit(cell, prev, node, next, slot, elastic trial moment)

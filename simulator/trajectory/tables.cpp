@@ -132,6 +132,9 @@ void write_events(h5::Node& group, const std::vector<Event>& events) {
   group.write("step", column<std::int64_t>(events, [](const Event& e) { return e.step; }));
   group.write("stage", column<std::int32_t>(events, [](const Event& e) { return e.stage; }));
   group.write("link", column<std::int32_t>(events, [](const Event& e) { return e.link; }));
+  // Files of scenes in which no bar breaks look as they did before bars could.
+  if (std::any_of(events.begin(), events.end(), [](const Event& e) { return e.bar >= 0; }))
+    group.write("bar", column<std::int32_t>(events, [](const Event& e) { return e.bar; }));
   group.write("position", position, 2);
   group.write("f_n", column<double>(events, [](const Event& e) { return e.f_n; }));
   group.write("f_t", column<double>(events, [](const Event& e) { return e.f_t; }));
@@ -159,6 +162,9 @@ std::vector<Event> read_events(const h5::Node& group) {
   };
   const auto step = longs("step");
   const auto stage = ints("stage"), link = ints("link");
+  const auto names = group.names();
+  const bool with_bars = std::find(names.begin(), names.end(), "bar") != names.end();
+  const auto bar = with_bars ? ints("bar") : std::vector<std::int32_t>(time.size(), -1);
   const auto position = doubles("position", 2);
   const auto f_n = doubles("f_n", 1), f_t = doubles("f_t", 1), mode_mix = doubles("mode_mix", 1);
   const auto energy = doubles("energy", 1), strain = doubles("strain", 1);
@@ -167,6 +173,7 @@ std::vector<Event> read_events(const h5::Node& group) {
     events[i] = {.time = time[i],
                  .step = step[i],
                  .link = link[i],
+                 .bar = bar[i],
                  .position = {position[2 * i], position[2 * i + 1]},
                  .f_n = f_n[i],
                  .f_t = f_t[i],
@@ -179,13 +186,16 @@ std::vector<Event> read_events(const h5::Node& group) {
 }
 
 void check_event(const Event& event, const Counts& counts, const std::string& where) {
-  if (event.link < 0 || static_cast<std::size_t>(event.link) >= counts.links)
+  if (event.bar >= 0 && (event.link != -1 || static_cast<std::size_t>(event.bar) >= counts.nodes))
+    throw DataError(fmt::format("{}: an event names bar {} and link {}; it must name one of {} bars and link -1", where,
+                                event.bar, event.link, counts.nodes));
+  if (event.bar < 0 && (event.link < 0 || static_cast<std::size_t>(event.link) >= counts.links))
     throw DataError(fmt::format("{}: an event names link {}; there are {}", where, event.link, counts.links));
   for (const double value : {event.time, event.position.x(), event.position.y(), event.f_n, event.f_t, event.mode_mix,
                              event.energy, event.strain})
     if (!std::isfinite(value))
-      throw DataError(
-          fmt::format("{}: the break of link {} holds a value that is not a finite number", where, event.link));
+      throw DataError(fmt::format("{}: the break of {} {} holds a value that is not a finite number", where,
+                                  event.bar >= 0 ? "bar" : "link", event.bar >= 0 ? event.bar : event.link));
 }
 
 void write_response(h5::Node& group, const Response& response) {

@@ -57,13 +57,14 @@ struct Response {
   std::vector<std::vector<double>> rows;
 };
 
-/// A break of a link (or, later, of a bar).
+/// A break of a link, or of a bar of a wall.
 struct Event {
   double time = 0;  // [s]
   std::int64_t step = 0;
-  std::int32_t link = 0;         // index into Sample::links
-  Vec2 position = Vec2::Zero();  // midpoint of the link [m]
-  double f_n = 0, f_t = 0;       // forces at break [N]
+  std::int32_t link = 0;         // index into Sample::links; -1: a bar broke
+  std::int32_t bar = -1;         // the bar's segment (its first node); -1: a link broke
+  Vec2 position = Vec2::Zero();  // midpoint of link or bar [m]
+  double f_n = 0, f_t = 0;       // forces at break [N]; of a bar its tension and 0
   double mode_mix = 0;           // atan2(|f_t / f_t0|, f_n / f_n0) [rad]: 0 pure opening, pi/2 pure shear
   double energy = 0;             // released, booked as fracture [J]
   double strain = 0;             // nominal strain at break

@@ -57,5 +57,36 @@ TEST(Fragments, grips_whose_own_cells_part_are_still_one_grip) {
   EXPECT_FALSE(separated(FrameView(sample, frame), 1));
 }
 
+/// Bars of the frame's cells are broken.
+void break_bars(Frame& frame, const Sample& sample, const std::vector<Index>& bars) {
+  std::vector<std::int32_t> broken(sample.nodes(), 0);
+  for (Index bar : bars) broken[bar] = 1;
+  frame.arrays.add({"bar_broken", "1", "segment", 1, broken});
+}
+
+TEST(Fragments, a_cell_with_two_broken_bars_is_in_two_pieces) {
+  // Three hexagons in a row; the second is cut between its left and its right wall.
+  const Sample sample = hexagon_tissue(3, 1, 1, 3, 0.05);
+  const auto middle = [&](Index bar) { return Vec2(0.5 * (sample.x[bar] + sample.x[sample.next(1, bar)])); };
+  Vec2 centre = Vec2::Zero();
+  for (Index i = sample.cell_begin[1]; i < sample.cell_begin[2]; ++i) centre += sample.x[i] / sample.cell_size(1);
+  Index low = sample.cell_begin[1], high = low;  // bars nearest to straight below and above
+  const auto off = [&](Index bar, double side) { return (middle(bar) - centre - Vec2(0.1, side)).norm(); };
+  for (Index i = sample.cell_begin[1]; i < sample.cell_begin[2]; ++i) {
+    if (off(i, -1) < off(low, -1)) low = i;
+    if (off(i, 1) < off(high, 1)) high = i;
+  }
+  Frame once = plain_frame(sample, sample.x, 0), twice = once;
+  break_bars(once, sample, {low}), break_bars(twice, sample, {low, high});
+  EXPECT_EQ(fragments(FrameView(sample, once)).count, 1);
+  EXPECT_FALSE(separated(FrameView(sample, once), 0));
+  const FrameView view(sample, twice);
+  const Fragments pieces = fragments(view);
+  EXPECT_EQ(pieces.count, 2);
+  EXPECT_NE(pieces.id[0], pieces.id[2]);
+  EXPECT_TRUE(separated(view, 0));
+  EXPECT_EQ(through_cracks(view, pieces, 0), 1);
+}
+
 }  // namespace
 }  // namespace lamella

@@ -1,5 +1,6 @@
 #include "postproc/postproc.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -254,6 +255,43 @@ TEST(Post, a_folder_that_cannot_be_made_is_named) {
   } catch (const DataError& error) {
     EXPECT_NE(std::string(error.what()).find("blocked"), std::string::npos);
   }
+}
+
+TEST(Post, an_opened_cell_is_shown_as_the_bars_that_are_left) {
+  const fs::path folder = fresh_folder();
+  const Sample sample = hexagon_tissue(2, 1, 1, 3, 0.05);
+  {
+    TrajectoryWriter writer(folder / "burst.h5", sample, {});
+    for (int k = 0; k < 3; ++k) {
+      Frame frame = plain_frame(sample, sample.x, k);
+      std::vector<std::int32_t> broken(sample.nodes(), 0);
+      std::vector<double> time(sample.nodes(), -1.0);
+      if (k > 0) broken[4] = 1, time[4] = 0.5;  // of the first cell
+      if (k > 1) broken[20] = 1, time[20] = 1.5;
+      frame.arrays.add({"bar_broken", "1", "segment", 1, broken});
+      frame.arrays.add({"bar_break_time", "s", "segment", 1, time});
+      if (k > 0) writer.add_event({.time = k - 0.5, .link = -1, .bar = k == 1 ? 4 : 20, .f_n = 2, .energy = 1e-9});
+      writer.write_frame(frame, {});
+    }
+    writer.finish("done");
+  }
+  post(folder / "burst.h5", folder / "out", {});
+  const auto cells = [&](const char* series, int frame) {
+    return read_mesh(folder / "out" / "vtk" / fmt::format("{}_{:04}.vtp", series, frame))->GetNumberOfCells();
+  };
+  EXPECT_EQ(cells("cells", 0), 2);
+  EXPECT_EQ(cells("cells", 1), 1);
+  EXPECT_EQ(cells("cells", 2), 0);
+  EXPECT_EQ(cells("walls", 0), 36);
+  EXPECT_EQ(cells("walls", 1), 35);
+  EXPECT_EQ(cells("walls", 2), 34);
+  const std::string events = text_of(folder / "out" / "events.csv");
+  EXPECT_NE(events.find("energy [J],bar [1]\n"), std::string::npos);
+  EXPECT_NE(events.find(",4\n"), std::string::npos);
+  EXPECT_TRUE(fs::exists(folder / "out" / "crack_path.png"));
+  const auto summary = nlohmann::json::parse(text_of(folder / "out" / "summary.json"));
+  EXPECT_EQ(summary.at("fracture").at("broken_bars").at("value"), 2);
+  EXPECT_EQ(summary.at("fracture").at("opened_cells").at("value"), 2);
 }
 
 }  // namespace

@@ -70,6 +70,19 @@ TEST_F(bad_input, a_file_that_is_not_there_or_no_file_exits_4) {
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 
+TEST_F(bad_input, frames_that_are_not_there_exit_2) {
+  const std::string scene = write_file(folder / "scene.toml", kHoneycomb), out = (folder / "out.h5").string();
+  ASSERT_EQ(lamella_program("run " + scene + " -q --set output.frames=2 -o " + (folder / "all").string()).status, 0);
+  const std::string extract = "extract " + (folder / "all/trajectory.h5").string() + " -o " + out;
+  EXPECT_THAT(lamella_program(extract + " --frame 4"),
+              ends_with(2, "frame 4: the trajectory has 4 frames; give 0 to 3"));
+  EXPECT_THAT(lamella_program(extract + " --frame -5"), ends_with(2, "frame -5"));
+  EXPECT_THAT(lamella_program(extract + " --frame two"), ends_with(2, "--frame"));
+  EXPECT_THAT(lamella_program("extract " + (folder / "all/sample.h5").string() + " -o " + out),
+              ends_with(4, "sample.h5"));
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
 TEST_F(bad_input, truncated_and_foreign_binary_files_exit_4) {
   const std::string scene = write_file(folder / "scene.toml", kHoneycomb), out = (folder / "out").string();
   ASSERT_EQ(lamella_program("generate " + scene + " -q -o " + (folder / "sample.h5").string()).status, 0);
@@ -96,6 +109,12 @@ TEST_F(bad_input, values_that_cannot_be_exit_2) {
   EXPECT_THAT(check("[cells"), ends_with(2, "scene.toml:1: not TOML"));
   EXPECT_THAT(check("\xff\xfe"), ends_with(2, "scene.toml:1: not TOML"));
   EXPECT_THAT(check(""), ends_with(2, "scene.toml:1: cells: missing"));
+  EXPECT_THAT(check(kHoneycomb + std::string("[stop]\nvoid_ratio = 0\n")),
+              ends_with(2, "stop.void_ratio: 0 is out of range"));
+  EXPECT_THAT(check(kHoneycomb + std::string("[stop]\ncompaction = 1\n")),
+              ends_with(2, "stop.compaction: 1 is out of range"));
+  EXPECT_THAT(check(kHoneycomb + std::string("[stop]\ncompaction = 0.1\n")),
+              ends_with(2, "stop.compaction: needs closed cells between walls on all four sides"));
   EXPECT_THAT(check(replaced(kHoneycomb, "density = 1000", "density = 0")),
               ends_with(2, "cells.density: 0 is out of range"));
   EXPECT_THAT(check(replaced(kHoneycomb, "density = 1000", "density = nan")),

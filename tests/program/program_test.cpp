@@ -24,7 +24,7 @@ class program : public testing::Test {
 
 TEST_F(program, help_shows_an_example_for_each_subcommand) {
   EXPECT_THAT(lamella_program("--help").said, HasSubstr("lamella run scene.toml -o results"));
-  for (const std::string name : {"run", "generate", "simulate", "post", "describe", "check"}) {
+  for (const std::string name : {"run", "generate", "simulate", "extract", "post", "describe", "check"}) {
     const Outcome help = lamella_program(name + " --help");
     EXPECT_EQ(help.status, 0);
     EXPECT_THAT(help.said, HasSubstr("Example:\n  lamella " + name));
@@ -56,6 +56,18 @@ TEST_F(program, run_is_generate_simulate_and_post) {
       lamella_program("simulate " + scene + " -q --sample " + at("sample.h5") + " -o " + at("trajectory.h5")).said, "");
   ASSERT_EQ(lamella_program("post " + at("trajectory.h5") + " -q -o " + at("parts")).said, "");
   EXPECT_EQ(read_file(folder / "parts" / "response.csv"), read_file(folder / "all" / "response.csv"));
+}
+
+TEST_F(program, extract_makes_a_frame_the_sample_of_other_scenes) {
+  ASSERT_EQ(lamella_program("run " + scene + " -q --set output.frames=4 -o " + at("all")).status, 0);
+  const Outcome extract =
+      lamella_program("extract " + at("all/trajectory.h5") + " -o " + at("loaded.h5") + " --frame 2");
+  ASSERT_EQ(extract.status, 0) << extract.said;
+  EXPECT_THAT(extract.said, AllOf(HasSubstr("frame 2 of 6"), HasSubstr("9 cells")));
+  const Outcome next =
+      lamella_program("simulate " + scene + " -q --sample " + at("loaded.h5") + " -o " + at("next.h5"));
+  EXPECT_EQ(next.status, 0) << next.said;
+  EXPECT_EQ(lamella_program("extract " + at("all/trajectory.h5") + " -q -o " + at("last.h5")).said, "");
 }
 
 TEST_F(program, settings_and_seed_reach_the_sample) {

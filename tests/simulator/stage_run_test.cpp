@@ -1,8 +1,11 @@
 // A stage as a whole: what its rows say, and that it goes on where it was interrupted.
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 
+#include "generator/sample/errors.h"
 #include "generator/sample/scene.h"
+#include "generator/sample/voids.h"
 #include "simulator/simulate.h"
 #include "tests/support/samples.h"
 #include "tests/support/temporary_folder.h"
@@ -82,6 +85,167 @@ TEST(StageRun, a_run_under_a_prescribed_pressure_resumes_to_the_same_bits) {
   EXPECT_EQ(whole.response().rows, resumed.response().rows);
   EXPECT_EQ(whole.frame(whole.frames() - 1).arrays.doubles("x"),
             resumed.frame(resumed.frames() - 1).arrays.doubles("x"));
+}
+
+/// A ring in a box whose lid comes down, and goes up again.
+Scene pressed(const std::vector<std::string>& settings) {
+  return parse_scene(R"(
+[sample]
+kind = "shapes"
+[[sample.shapes]]
+kind = "ring"
+size = 1
+segments = 20
+[[sample.shapes]]
+kind = "plate"
+group = "held"
+from = [-2, -1.3]
+to = [2, -1.3]
+segments = 1
+[[sample.shapes]]
+kind = "plate"
+group = "held"
+from = [-1.6, -1.2]
+to = [-1.6, 1.5]
+segments = 1
+[[sample.shapes]]
+kind = "plate"
+group = "held"
+from = [1.6, -1.2]
+to = [1.6, 1.5]
+segments = 1
+[[sample.shapes]]
+kind = "plate"
+group = "lid"
+from = [-1.4, 1.3]
+to = [1.4, 1.3]
+segments = 1
+[cells]
+axial_rigidity = 100
+bending_rigidity = 1
+mass_per_length = 1
+radius = 0.1
+[contact]
+normal_stiffness = 1000
+[drag]
+rate = 1
+[[loads]]
+name = "held"
+nodes = { group = "held" }
+velocity_x = 0
+velocity_y = 0
+[[loads]]
+name = "lid"
+nodes = { group = "lid" }
+velocity_x = 0
+velocity_y = -0.2
+[stop]
+time = 6
+void_ratio = 1e-6
+[output]
+frames = 10
+response = 300
+[[stages]]
+name = "down"
+[[stages]]
+name = "up"
+remove = ["stop.void_ratio"]
+stop.compaction = 0
+[[stages.loads]]
+name = "lid"
+velocity_y = 0.2
+)",
+                     "pressed", settings);
+}
+
+Sample pressed_ring() {
+  Sample sample;
+  std::vector<Vec2> circle;
+  for (int k = 0; k < 20; ++k) circle.emplace_back(std::cos(M_PI * k / 10), std::sin(M_PI * k / 10));
+  add_cell(sample, circle, true, 0.1, "cells");
+  for (const auto& [from, to] : std::vector<std::pair<Vec2, Vec2>>{
+           {{-2, -1.3}, {2, -1.3}}, {{-1.6, -1.2}, {-1.6, 1.5}}, {{1.6, -1.2}, {1.6, 1.5}}})
+    add_cell(sample, {from, to}, false, 0.1, "held");
+  add_cell(sample, {{-1.4, 1.3}, {1.4, 1.3}}, false, 0.1, "lid");
+  sample.tile_area = sample.rest_area;
+  sample.box = {{-2, -2}, {2, 2}};
+  return sample;
+}
+
+RunFacts run_to(const std::filesystem::path& path, const Scene& scene) {
+  const Sample sample = pressed_ring();
+  TrajectoryWriter writer(path, sample, {});
+  return simulate(sample, scene, writer, {});
+}
+
+TEST(StageRun, ends_where_a_load_exerts_more_than_asked) {
+  const TemporaryFolder folder;
+  run_to(folder / "t", pressed({"loads.lid.stop_force=0.5", "stages.up.stop.time=0.1"}));
+  const TrajectoryReader reader(folder / "t");
+  const auto stage = column(reader, "stage"), force = column(reader, "force_y_lid"),
+             moved = column(reader, "moved_y_lid");
+  const auto last = static_cast<std::size_t>(std::find(stage.begin(), stage.end(), 1) - stage.begin()) - 1;
+  for (std::size_t k = 0; k + 1 < last; ++k) EXPECT_LE(-force[k], 0.5) << k;
+  EXPECT_GT(-force[last], 0.5);
+  // The gap is 0.1 above and below; touch shows soon after.
+  EXPECT_LT(moved[last], -0.1);
+  EXPECT_GT(moved[last], -0.35);
+}
+
+TEST(StageRun, ends_at_a_compaction_and_where_it_is_taken_back) {
+  const TemporaryFolder folder;
+  const RunFacts facts = run_to(folder / "t", pressed({"stages.down.stop.compaction=0.25"}));
+  EXPECT_EQ(facts.ended.find("compaction"), 0u) << facts.ended;
+  const TrajectoryReader reader(folder / "t");
+  const auto stage = column(reader, "stage"), moved = column(reader, "moved_y_lid");
+  const auto turn = static_cast<std::size_t>(std::find(stage.begin(), stage.end(), 1) - stage.begin()) - 1;
+  EXPECT_NEAR(moved[turn], -0.25 * 2.4, 0.2 * 2 * 6 / 300);  // one row at most
+  EXPECT_NEAR(moved.back(), 0, 0.2 * 2 * 6 / 300);
+}
+
+TEST(StageRun, ends_below_a_void_ratio) {
+  const TemporaryFolder folder;
+  run_to(folder / "t", pressed({"stages.down.stop.void_ratio=0.7", "stages.up.stop.time=0.1"}));
+  const TrajectoryReader reader(folder / "t");
+  const auto at = [&](int frame) {
+    std::vector<Vec2> x;
+    const auto rows = reader.frame(frame).arrays.doubles("x");
+    for (std::size_t i = 0; i < rows.size(); i += 2) x.emplace_back(rows[i], rows[i + 1]);
+    return void_ratio(reader.sample(), x, *room_between_walls(reader.sample(), x));
+  };
+  int last = 0;  // of the first stage
+  while (reader.frame(last + 1).stage == 0) ++last;
+  EXPECT_GT(at(last - 1), 0.7);
+  EXPECT_LT(at(last), 0.7);
+  EXPECT_GT(at(last), 0.68);
+}
+
+TEST(StageRun, a_run_that_loosens_again_resumes_to_the_same_bits) {
+  const TemporaryFolder folder;
+  const Scene scene = pressed({"stages.down.stop.compaction=0.1"});
+  run_to(folder / "whole", scene);
+  {
+    const Sample sample = pressed_ring();
+    TrajectoryWriter writer(folder / "cut", sample, {});
+    std::atomic<bool> stop = false;
+    SimulateOptions options;
+    options.interrupted = &stop;
+    options.progress = [&](const RunProgress& now) { stop = now.stage == 1 && now.time > 1.9; };
+    EXPECT_TRUE(simulate(sample, scene, writer, options).interrupted);
+  }
+  resume(folder / "cut", {});
+  EXPECT_EQ(TrajectoryReader(folder / "whole").response().rows, TrajectoryReader(folder / "cut").response().rows);
+}
+
+TEST(StageRun, room_between_walls_needs_walls) {
+  const TemporaryFolder folder;
+  const Sample ring = ring_sample(20);
+  for (const char* key : {"compaction", "void_ratio"}) {
+    Scene scene = inflated(0.4);
+    (std::string(key) == "compaction" ? scene.stages[0].stop.compaction : scene.stages[0].stop.void_ratio) = 0.1;
+    TrajectoryWriter writer(folder / key, ring, {});
+    EXPECT_THROW(simulate(ring, scene, writer, {}), SceneError);
+  }
 }
 
 }  // namespace

@@ -327,11 +327,34 @@ TEST_F(Trajectory, frames_that_could_not_be_read_again_are_not_written) {
               }),
               HasSubstr("'stress' of the response is not a finite"));
   EXPECT_THAT(message_of([&] { writer.add_event({.link = 1000}); }), HasSubstr("an event names link 1000"));
+  EXPECT_THAT(message_of([&] { writer.add_event({.link = 0, .bar = 2}); }),
+              HasSubstr("an event names bar 2 and link 0"));
+  EXPECT_THAT(message_of([&] { writer.add_event({.link = -1, .bar = 1000}); }), HasSubstr("an event names bar 1000"));
   EXPECT_THAT(message_of([&] { writer.set_response_columns({"time"}, {"s"}); }),
               HasSubstr("cannot change within a run"));
   Frame next = frame_of(1);
   next.stage = 1;  // the same time, but a new stage
   writer.write_frame(next, restart_of(1));
+}
+
+TEST_F(Trajectory, events_of_bars_and_links_come_back_as_they_were) {
+  {
+    TrajectoryWriter writer = new_writer(path_);
+    writer.add_event({.time = 0.1, .link = 3});
+    writer.write_frame(frame_of(0), restart_of(0));
+    writer.add_event({.time = 0.2, .link = -1, .bar = 2, .position = {1, 2}, .f_n = 5});
+    writer.add_event({.time = 0.2, .link = 1});
+    writer.write_frame(frame_of(1), restart_of(1));
+    writer.finish("test");
+  }
+  const TrajectoryReader reader(path_);
+  ASSERT_EQ(reader.events().size(), 3u);
+  EXPECT_EQ(reader.events()[0].bar, -1);
+  EXPECT_EQ(reader.events()[0].link, 3);
+  EXPECT_EQ(reader.events()[1].bar, 2);
+  EXPECT_EQ(reader.events()[1].link, -1);
+  EXPECT_EQ(reader.events()[1].f_n, 5);
+  EXPECT_EQ(reader.events()[2].bar, -1);
 }
 
 TEST_F(Trajectory, an_array_is_found_by_name_and_type) {
