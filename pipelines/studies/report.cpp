@@ -143,24 +143,27 @@ Curve dotted_curve(int k, const std::string& label, std::vector<double> x, std::
   return curve;
 }
 
-Order observed_order(const std::vector<double>& n, const std::vector<double>& error) {
-  std::vector<double> x, y;
-  for (std::size_t k = 0; k < n.size(); ++k)
-    if (error[k] != 0) x.push_back(-std::log(n[k])), y.push_back(std::log(std::abs(error[k])));
+FittedLine fitted_line(const std::vector<double>& x, const std::vector<double>& y) {
   const auto count = static_cast<double>(x.size());
-  if (x.size() < 2) return {};
+  FittedLine line{.points = static_cast<int>(x.size())};
+  if (x.size() < 2) return line;
   double mean_x = 0, mean_y = 0, xx = 0, xy = 0;
   for (std::size_t k = 0; k < x.size(); ++k) mean_x += x[k] / count, mean_y += y[k] / count;
   for (std::size_t k = 0; k < x.size(); ++k)
     xx += (x[k] - mean_x) * (x[k] - mean_x), xy += (x[k] - mean_x) * (y[k] - mean_y);
-  Order order{xy / xx, 0};
+  line.slope = xy / xx, line.at_zero = mean_y - line.slope * mean_x;
   double square = 0;
-  for (std::size_t k = 0; k < x.size(); ++k) {
-    const double off = y[k] - mean_y - order.order * (x[k] - mean_x);
-    square += off * off;
-  }
-  if (x.size() > 2) order.half_width = student(static_cast<int>(x.size()) - 2) * std::sqrt(square / (count - 2) / xx);
-  return order;
+  for (std::size_t k = 0; k < x.size(); ++k) square += std::pow(y[k] - line.at_zero - line.slope * x[k], 2);
+  if (x.size() > 2) line.half_width = student(static_cast<int>(x.size()) - 2) * std::sqrt(square / (count - 2) / xx);
+  return line;
+}
+
+Order observed_order(const std::vector<double>& n, const std::vector<double>& error) {
+  std::vector<double> x, y;
+  for (std::size_t k = 0; k < n.size(); ++k)
+    if (error[k] != 0) x.push_back(-std::log(n[k])), y.push_back(std::log(std::abs(error[k])));
+  const FittedLine line = fitted_line(x, y);
+  return {line.slope, line.half_width};
 }
 
 }  // namespace lamella

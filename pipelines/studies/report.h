@@ -82,6 +82,14 @@ Curve line_curve(int k, const std::string& label, std::vector<double> x, std::ve
 /// Dots in that colour: what was computed, beside lines that are exact.
 Curve dotted_curve(int k, const std::string& label, std::vector<double> x, std::vector<double> y);
 
+/// Straight line through points by least squares.
+struct FittedLine {
+  double slope = 0, at_zero = 0;
+  double half_width = 0;  // of the slope's 95 % interval, as if the points were independent; 0 with fewer than three
+  int points = 0;
+};
+FittedLine fitted_line(const std::vector<double>& x, const std::vector<double>& y);
+
 /// Slope of log(error) over log(1 / n) by least squares, and its 95 % interval's half width: the observed order of convergence.
 struct Order {
   double order = 0, half_width = 0;

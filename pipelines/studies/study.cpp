@@ -6,7 +6,9 @@
 
 #include "generator/generate.h"
 #include "generator/sample/errors.h"
+#include "pipelines/studies/equilibrium.h"
 #include "postproc/output_file.h"
+#include "simulator/lowest_frequency.h"
 
 namespace lamella {
 
@@ -40,6 +42,14 @@ Sample sample_of(const Scene& scene) {
   const auto violations = check_sample(sample);
   if (!violations.empty()) throw SceneError(fmt::format("{}: sample: {}", scene.path.string(), violations.front()));
   return sample;
+}
+
+double lowest_frequency_of(const Sample& sample, const Scene& scene) {
+  const Field rest = rest_positions(sample);
+  const auto model = build_model(sample, scene.stages.front(), rest);
+  const auto found = lowest_frequency(*model, build_loads(sample, scene.stages.front()), rest);
+  if (!found) throw SolverError(fmt::format("{}: nothing swings in it", scene.path.string()));
+  return *found;
 }
 
 Scene StudyBench::scene(const std::string& file, const std::vector<std::string>& settings) const {

@@ -90,5 +90,8 @@ const Study* find_study(const std::filesystem::path& folder);
 
 /// Makes the sample of a scene and checks it. Throws SceneError.
 Sample sample_of(const Scene& scene);
+/// Lowest frequency [rad/s] of a sample under the first stage of a scene, at rest: what "slow" means for it. Throws SolverError where nothing
+/// swings.
+double lowest_frequency_of(const Sample& sample, const Scene& scene);
 
 }  // namespace lamella
