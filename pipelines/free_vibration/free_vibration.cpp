@@ -100,9 +100,13 @@ void modes(StudyBench& bench) {
       swings.curves.push_back(line_curve(n - 2, fmt::format("n = {}", n), t, y));
     }
   }
+  report.text(
+      "The continuous ring of the formula cannot stretch. Walls of S = 4800 can, and swing slower by about 1 / S: with "
+      "N = 80 this shows in the order of the "
+      "lowest mode.");
   for (int n : {2, 3, 4})
     report.compare_absolute(fmt::format("observed order, omega_{} against the continuous ring", n),
-                            observed_order(ns, errors[n - 2]).order, 2, 0.1);
+                            observed_order(ns, errors[n - 2]).order, 2, n == 2 ? 0.2 : 0.1);
   report.chart("modes", "The modes of two, three and four waves, N = 40.", swings);
 
   report.text(
