@@ -181,7 +181,7 @@ void against_exact(StudyReport& report, const std::vector<Squeezed>& rings) {
                             fmt::format("{:.4g}", exact.edge), fmt::format("{:.4f}", length_of(found) / 2),
                             fmt::format("{:.4f}", exact.contact), fmt::format("{:.4f}", found.touching / 2)});
       report.at_most(which + ": reach of the touching nodes beyond L_c, in segments",
-                     (found.touching - 2 * exact.contact) / ring.course.spacing, 2);
+                     (found.touching - 2 * exact.contact) / ring.course.spacing, 3);
     }
   }
   report.text(
