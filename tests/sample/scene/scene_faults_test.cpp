@@ -117,7 +117,8 @@ TEST(scene_faults, two_ways_of_saying_one_thing_contradict_each_other) {
               ElementsAre(HasSubstr("cells.break_strain: contradicts break_force")));
   EXPECT_THAT(faults(plate("break_stress = 1\nbreak_force = 1\n")),
               ElementsAre(HasSubstr("cells.break_force: contradicts break_stress")));
-  EXPECT_THAT(faults(plate("break_force = -1\n")), ElementsAre(HasSubstr("s.toml:12: cells.break_force: -1 is out of range")));
+  EXPECT_THAT(faults(plate("break_force = -1\n")),
+              ElementsAre(HasSubstr("s.toml:12: cells.break_force: -1 is out of range")));
   EXPECT_THAT(faults(plate("yield_stress = 1\nyield_moment = 1\n")),
               ElementsAre(HasSubstr("s.toml:13: cells.yield_moment: contradicts yield_stress")));
   EXPECT_THAT(faults(plate("core = { modulus = 1, stiffness_ratio = 1 }\n")),
