@@ -96,7 +96,8 @@ void snap_back(StudyBench& bench) {
   report.between("order at which it falls with the step", std::log(worst[0] / worst.back()) / std::log(n.back() / n[0]),
                  1.8, 2.3);
   report.compare("stress at the first break: half the step over the default", firsts[1] / firsts[0], 1, 1e-3);
-  report.compare("peak stress: half the step over the default", peaks[1] / peaks[0], 1, 0.01);
+  // After the first break the path is chaotic: another machine, which rounds otherwise, finds another one. In small there is but one of them.
+  report.compare("peak stress: half the step over the default", peaks[1] / peaks[0], 1, bench.small() ? 0.05 : 0.01);
   draw_panels(bench, "snap_back", "The tissue at rest, before and after.",
               {{&shown->reader.sample(), shown->positions(0), "before", {}},
                {&shown->reader.sample(), shown->positions(-1), "after", {}}});
