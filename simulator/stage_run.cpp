@@ -195,8 +195,14 @@ std::vector<std::string> StageRun::summary() const {
       lines.push_back(
           fmt::format("  bending against stretching: EI / (EA R^2) = {:.3g}, l / R = {:.3g}, r / R = {:.3g}",
                       cell.bending() / (cell.axial() * radius * radius), l / radius, sample_.radius[c] / radius));
+      const double k_b = cell.bending() / l;
+      if (model_->contacts) {
+        const double k = model_->contacts->node_stiffness(i);
+        lines.push_back(fmt::format("  contact against walls: k_n l^2 / k_b = {:.3g}, k_n l / EA = {:.3g}",
+                                    k * l * l / k_b, k * l / cell.axial()));
+      }
       if (model_->links) {
-        const double k = model_->links->normal_stiffness(0), k_b = cell.bending() / l;
+        const double k = model_->links->normal_stiffness(0);
         lines.push_back(
             fmt::format("  links against walls: k_n l^2 / k_b = {:.3g}, k_n l / EA = {:.3g}, gap / thickness = {:.3g}",
                         k * l * l / k_b, k * l / cell.axial(),

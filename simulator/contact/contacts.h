@@ -52,6 +52,8 @@ class Contacts final : public Term {
   /// Makes the list of candidates anew, however good the present one.
   void rebuild(const Field& x);
   double skin() const { return 0.5 * rules_.skin; }
+  /// k_n of a node that presses on a bare shell [N/m].
+  double node_stiffness(Index node) const { return p_.node_stiffness[node]; }
   /// Number of listed pairs.
   Index active() const { return static_cast<Index>(list_.pairs.size()); }
   /// Forces of pairs [begin, end), kept per pair. Ranges that do not overlap may be evaluated at the same time.

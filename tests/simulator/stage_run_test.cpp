@@ -1,4 +1,6 @@
 // A stage as a whole: what its rows say, and that it goes on where it was interrupted.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -39,6 +41,18 @@ frames = 10
 response = 40
 )",
                      "inflated", {"run.step_fraction=" + std::to_string(step_fraction)});
+}
+
+TEST(StageRun, says_how_stiff_contact_is_beside_the_walls) {
+  Scene scene = inflated(0.5);
+  scene.stages[0].contact.emplace();
+  scene.stages[0].contact->normal_stiffness = 1000;
+  const double l = 2 * std::sin(M_PI / 20);  // EI = 1, k_n = 1000 l, k_b = EI / l
+  const std::string expected = fmt::format("contact against walls: k_n l^2 / k_b = {:.3g}", 1000 * std::pow(l, 4));
+  const auto lines = start_up_summary(ring_sample(20), scene);
+  EXPECT_TRUE(std::any_of(lines.begin(), lines.end(), [&](const std::string& line) {
+    return line.find(expected) != std::string::npos;
+  })) << expected;
 }
 
 std::vector<double> column(const TrajectoryReader& reader, const std::string& name) {
