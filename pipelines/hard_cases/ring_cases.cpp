@@ -241,6 +241,11 @@ void soft_wall(StudyBench& bench) {
   report.table(table);
   report.at_most("soft wall: forces, off those of a prototype with the same wall", worst, 0.015);
   report.at_least("soft wall: largest overlap over R", overlap, 0.1);
+  const auto& said = run.reader.provenance().at("summary");
+  const std::string key = "contact against walls: k_n l^2 / k_b = ";
+  const auto from = said.find(key);
+  report.compare("k_n l^2 / k_b, as the program says it when it starts",
+                 from == std::string::npos ? std::nan("") : std::stod(said.substr(from + key.size())), 1e-3, 0.01);
   const StudyRun stiff = bench.run("stiff_wall", "ring_between_plates.toml", {"stages.flat.stop.time=5"});
   double largest = 0;
   for (const RingShape& s : shapes_of(stiff)) largest = std::max(largest, s.overlap);
