@@ -216,6 +216,16 @@ std::unique_ptr<Model> build_model(const Sample& sample, const Stage& stage, con
   return model;
 }
 
+double PressureHistory::at(double time) const {
+  if (time <= points->front().x()) return points->front().y();
+  for (std::size_t k = 1; k < points->size(); ++k)
+    if (const Vec2& before = (*points)[k - 1], &after = (*points)[k]; time <= after.x()) {
+      const double u = (time - before.x()) / (after.x() - before.x());
+      return (1 - u) * before.y() + u * after.y();
+    }
+  return points->back().y();
+}
+
 void Model::add_rupture(const WallStrength& strength) {
   rupture = std::make_unique<WallRupture>(
       layout, strength,

@@ -22,6 +22,8 @@ namespace lamella {
 struct PressureHistory {
   Index cell = 0;
   const std::vector<Vec2>* points = nullptr;
+
+  double at(double time) const;  // [Pa]
 };
 
 struct Model {

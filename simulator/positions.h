@@ -18,6 +18,29 @@ struct Field {
   void add(std::size_t node, const Vec2& v) { x[node] += v.x(), y[node] += v.y(); }
 };
 
+/// From points, and back. Shape (nodes).
+inline Field field_of(const std::vector<Vec2>& points) {
+  Field f(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) f.set(i, points[i]);
+  return f;
+}
+inline std::vector<Vec2> points_of(const Field& f) {
+  std::vector<Vec2> points(f.size());
+  for (std::size_t i = 0; i < f.size(); ++i) points[i] = f.at(i);
+  return points;
+}
+/// From rows of two numbers, as they stand in files, and back. Shape (nodes, 2), row by row.
+inline Field field_from(const std::vector<double>& rows) {
+  Field f(rows.size() / 2);
+  for (std::size_t i = 0; i < f.size(); ++i) f.x[i] = rows[2 * i], f.y[i] = rows[2 * i + 1];
+  return f;
+}
+inline std::vector<double> rows_from(const Field& f) {
+  std::vector<double> rows(2 * f.size());
+  for (std::size_t i = 0; i < f.size(); ++i) rows[2 * i] = f.x[i], rows[2 * i + 1] = f.y[i];
+  return rows;
+}
+
 /// Asks for [begin, end) of an array before it is needed. Sweeps go through many arrays in bursts of a block, too short for the
 /// hardware to foresee where the next burst begins.
 template <class T>

@@ -3,14 +3,14 @@
 #include <fmt/format.h>
 
 #include "generator/sample/errors.h"
-#include "simulator/stage_run.h"
+#include "simulator/stage.h"
 
 namespace lamella {
 namespace {
 
 /// Runs stages from `first` on. `start`: where stage `first` starts.
 RunFacts run_stages(const Sample& sample, const Scene& scene, TrajectoryWriter& writer, const SimulateOptions& options,
-                    int first, const ArraySet& start, StageRun::Start how, const std::vector<std::string>& columns) {
+                    int first, const ArraySet& start, StageStart how, const std::vector<std::string>& columns) {
   RunFacts facts;
   std::map<std::string, ArraySet> ends;  // last frame of each stage, by name
   ArraySet from = start;
@@ -24,12 +24,12 @@ RunFacts run_stages(const Sample& sample, const Scene& scene, TrajectoryWriter& 
             stage.name, stage.from));
       from = at->second;
     }
-    StageRun run(sample, scene, s, from, s > first ? StageRun::Start::kContinued : how);
-    for (const auto& line : run.summary())
+    const auto run = make_stage(sample, scene, s, from, s > first ? StageStart::kContinued : how);
+    for (const auto& line : run->summary())
       if (options.say) options.say(line);
-    facts.ended = run.run(writer, options, columns, facts);
+    facts.ended = run->run(writer, options, columns, facts);
     if (facts.interrupted) break;
-    from = run.last();
+    from = run->last();
     ends[stage.name] = from;
   }
   facts.node_steps = facts.seconds > 0 ? static_cast<double>(facts.timed_steps) * sample.nodes() / facts.seconds : 0.0;
@@ -47,9 +47,9 @@ RunFacts run_stages(const Sample& sample, const Scene& scene, TrajectoryWriter& 
 void prepare(const Sample& sample, const Scene& scene, std::vector<std::string>& columns,
              std::vector<std::string>& units, Provenance& provenance) {
   for (int s = 0; s < static_cast<int>(scene.stages.size()); ++s) {
-    const StageRun run(sample, scene, s, ArraySet{}, StageRun::Start::kFresh);
-    run.columns(columns, units);
-    run.describe(provenance);
+    const auto run = make_stage(sample, scene, s, ArraySet{}, StageStart::kFresh);
+    run->columns(columns, units);
+    run->describe(provenance);
   }
 }
 
@@ -70,7 +70,7 @@ RunFacts simulate(const Sample& sample, const Scene& scene, TrajectoryWriter& wr
   provenance["version"] = LAMELLA_VERSION;
   for (const auto& [key, value] : provenance) writer.set_provenance(key, value);
   writer.set_response_columns(columns, units);
-  return run_stages(sample, scene, writer, options, 0, ArraySet{}, StageRun::Start::kFresh, columns);
+  return run_stages(sample, scene, writer, options, 0, ArraySet{}, StageStart::kFresh, columns);
 }
 
 RunFacts resume(const std::filesystem::path& path, const SimulateOptions& options) {
@@ -104,13 +104,13 @@ RunFacts resume(const std::filesystem::path& path, const SimulateOptions& option
   if (stage < 0 || stage >= static_cast<int>(scene.stages.size()))
     throw DataError(
         fmt::format("{}: its restart is of stage {}, and its scene has {}", path.string(), stage, scene.stages.size()));
-  return run_stages(sample, scene, writer, options, stage, restart, StageRun::Start::kResumed, columns);
+  return run_stages(sample, scene, writer, options, stage, restart, StageStart::kResumed, columns);
 }
 
 std::vector<std::string> start_up_summary(const Sample& sample, const Scene& scene) {
   std::vector<std::string> lines;
   for (int s = 0; s < static_cast<int>(scene.stages.size()); ++s)
-    for (auto& line : StageRun(sample, scene, s, ArraySet{}, StageRun::Start::kFresh).summary())
+    for (auto& line : make_stage(sample, scene, s, ArraySet{}, StageStart::kFresh)->summary())
       lines.push_back(std::move(line));
   return lines;
 }

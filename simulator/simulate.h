@@ -7,6 +7,7 @@
 
 #include "generator/sample/sample.h"
 #include "generator/sample/scene.h"
+#include "simulator/solver_cost.h"
 #include "simulator/trajectory/trajectory.h"
 
 namespace lamella {
@@ -36,6 +37,7 @@ struct RunFacts {
   double frame_seconds = 0;      // of frames and rows
   double node_steps = 0;         // nodes x steps / seconds [1/s]
   double residual = 0;           // of the energy ledger: largest over frames
+  SolverCost static_cost;        // of searches for equilibrium
 };
 
 /// Runs all stages of the scene. Throws SceneError before anything is computed where scene and sample do not fit;

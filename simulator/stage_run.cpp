@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "generator/sample/errors.h"
-#include "generator/sample/voids.h"
+#include "simulator/health.h"
 #include "simulator/initial.h"
 
 namespace lamella {
@@ -27,40 +27,16 @@ namespace {
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-Field field_from(const std::vector<double>& rows) {
-  Field f(rows.size() / 2);
-  for (std::size_t i = 0; i < f.size(); ++i) f.x[i] = rows[2 * i], f.y[i] = rows[2 * i + 1];
-  return f;
-}
-
-std::vector<Vec2> points_from(const Field& f) {
-  std::vector<Vec2> points(f.size());
-  for (std::size_t i = 0; i < f.size(); ++i) points[i] = f.at(i);
-  return points;
-}
-
-std::vector<double> rows_from(const Field& f) {
-  std::vector<double> rows(2 * f.size());
-  for (std::size_t i = 0; i < f.size(); ++i) rows[2 * i] = f.x[i], rows[2 * i + 1] = f.y[i];
-  return rows;
-}
-
-double interpolated(const std::vector<Vec2>& points, double t) {
-  if (t <= points.front().x()) return points.front().y();
-  for (std::size_t k = 1; k < points.size(); ++k)
-    if (t <= points[k].x()) {
-      const double u = (t - points[k - 1].x()) / (points[k].x() - points[k - 1].x());
-      return (1 - u) * points[k - 1].y() + u * points[k].y();
-    }
-  return points.back().y();
-}
-
 }  // namespace
 
-StageRun::StageRun(const Sample& sample, const Scene& scene, int stage, const ArraySet& start, Start how)
-    : sample_(sample), scene_(scene), stage_(scene.stages[stage]), index_(stage), resumed_(how == Start::kResumed) {
+StageRun::StageRun(const Sample& sample, const Scene& scene, int stage, const ArraySet& start, StageStart how)
+    : sample_(sample),
+      scene_(scene),
+      stage_(scene.stages[stage]),
+      index_(stage),
+      resumed_(how == StageStart::kResumed) {
   const std::size_t nodes = sample.nodes();
-  state_.x = Field(nodes), state_.v = Field(nodes);
+  state_.v = Field(nodes);
   if (start.find("x")) {
     state_.x = field_from(start.doubles("x"));
     state_.v = field_from(start.doubles("v"));
@@ -68,30 +44,16 @@ StageRun::StageRun(const Sample& sample, const Scene& scene, int stage, const Ar
     state_.time = clock.at(0);
     state_.step = static_cast<std::int64_t>(clock.at(1));
   } else {
-    for (std::size_t i = 0; i < nodes; ++i) state_.x.set(i, sample.x[i]);
+    state_.x = field_of(sample.x);
   }
-  model_ = build_model(sample, stage_, state_.x);
+  model_ = restored_model(sample, stage_, state_.x, start);
   loads_ = build_loads(sample, stage_);
   load_columns_ = load_columns(loads_);
   gauge_ = measure_gauge(sample, stage_, loads_);
   if (stage_.loading) course_.emplace(*stage_.loading, gauge_);
-  if (start.find("bar_broken")) {
-    if (!model_->rupture) model_->add_rupture({});
-    model_->rupture->restore(start);
-    if (model_->links && model_->rupture->broken().count() > 0) model_->links->follow(model_->rupture->broken());
-  }
-  for (Term* term : model_->terms()) term->restore(start);
   stepper_ = std::make_unique<VelocityVerlet>(*model_, loads_, state_, stage_.run.threads);
 
-  if (stage_.stop.compaction || stage_.stop.void_ratio) {
-    const auto room = room_between_walls(sample, sample.x), now = room_between_walls(sample, points_from(state_.x));
-    if (!room || !now)
-      throw SceneError(fmt::format(
-          "stop.{}: needs closed cells between walls on all four sides: open chains along x and y, such as plates",
-          stage_.stop.compaction ? "compaction" : "void_ratio"));
-    sample_room_ = room->area();
-    loosens_ = stage_.stop.compaction && compaction(*now) > *stage_.stop.compaction;
-  }
+  stops_.emplace(stage_, *model_, loads_, state_.x);
   start_time_ = state_.time;
   if (course_) duration_ = course_->duration();
   if (stage_.stop.time)
@@ -103,24 +65,25 @@ StageRun::StageRun(const Sample& sample, const Scene& scene, int stage, const Ar
   rows_per_frame_ = std::max(1, stage_.output.response / frames);
   row_interval_ = duration_ / (static_cast<double>(frames) * static_cast<double>(rows_per_frame_));
 
-  if (how == Start::kResumed) {
+  if (how == StageStart::kResumed) {
     stepper_->restore(start);
     if (course_) course_->restore(start.doubles("course"));
     const auto& d = start.doubles("driver");
     start_time_ = d.at(0), row_ = static_cast<std::int64_t>(d.at(1)),
     steps_per_row_ = static_cast<std::int64_t>(d.at(2));
-    dt_ = d.at(3), last_dt_ = d.at(4), peak_stress_ = d.at(5), largest_work_ = d.at(6);
+    dt_ = d.at(3), last_dt_ = d.at(4), largest_work_ = d.at(6);
     pressure_work_ = d.at(7);
     base_ = start.doubles("ledger_base");
     pressure_lever_ = start.doubles("pressure_lever");
-    if (stage_.stop.compaction) loosens_ = start.doubles("loosens").at(0) != 0;
+    stops_->set_history(
+        {.peak_stress = d.at(5), .loosens = start.find("loosens") && start.doubles("loosens").at(0) != 0});
   }
   if (model_->links) broken_ = model_->links->broken();
   if (model_->rupture) broken_bars_ = model_->rupture->broken().count();
   for (const auto& history : model_->pressure_histories)
-    model_->core->set_pressure(history.cell, interpolated(*history.points, state_.time - start_time_));
+    model_->core->set_pressure(history.cell, history.at(state_.time - start_time_));
   plan_step();
-  if (how != Start::kResumed) set_initial_velocities(*model_, stage_, loads_, dt_, state_);
+  if (how != StageStart::kResumed) set_initial_velocities(*model_, stage_, loads_, dt_, state_);
 }
 
 // The step is a whole fraction of the time between rows, and changes only when the bound asks for a smaller one: a constant
@@ -222,14 +185,7 @@ std::vector<std::string> StageRun::summary() const {
 
 void StageRun::describe(Provenance& p) const {
   const std::string prefix = index_ == 0 ? "" : fmt::format("stage_{}_", index_);
-  if (course_) {
-    p[prefix + "axis"] = gauge_.axis == 0 ? "x" : "y";
-    p[prefix + "kind"] = stage_.loading->kind;
-    p[prefix + "gauge_length"] = fmt::format("{:.17g}", gauge_.length);
-    p[prefix + "width"] = fmt::format("{:.17g}", gauge_.width);
-    p[prefix + "depth"] = fmt::format("{:.17g}", gauge_.depth);
-    p[prefix + "grip_speed"] = fmt::format("{:.17g}", gauge_.speed);
-  }
+  describe_gauge(gauge_, stage_, prefix, p);
   p[prefix + "time_step"] = fmt::format("{:.17g}", dt_);
   p[prefix + "stable_time_step"] = fmt::format("{:.17g}", stable_.dt);
   p[prefix + "step_limited_by"] = fmt::format("node {}: {}", stable_.node, stable_.limited_by);
@@ -260,7 +216,7 @@ void StageRun::set_pressures() {
       lever.push_back(0);
       continue;
     }
-    const double before = model_->core->pressure(history.cell), now = interpolated(*history.points, since);
+    const double before = model_->core->pressure(history.cell), now = history.at(since);
     lever.push_back(model_->core->energy_per_pressure(history.cell, state_.x));
     pressure_work_ +=
         (now - before) * 0.5 * (lever.back() + (pressure_lever_.empty() ? lever.back() : pressure_lever_[k]));
@@ -286,93 +242,6 @@ StageRun::Row StageRun::weigh(double energy, const Measurement& m) const {
   return row;
 }
 
-std::optional<std::string> StageRun::stop_reason(const Row& row) {
-  const double since = row.time - start_time_;
-  const double magnitude = std::abs(row.stress);
-  peak_stress_ = std::max(peak_stress_, magnitude);
-  if (course_ && course_->finished()) return fmt::format("strain {:.4g} reached", row.strain);
-  const StopScene& stop = stage_.stop;
-  if (stop.time && since >= *stop.time * (1 - 1e-9)) return fmt::format("time {:.4g} s reached", *stop.time);
-  const bool damaged = broken_ + broken_bars_ > 0;
-  if (stop.stress_drop && damaged && magnitude < *stop.stress_drop * peak_stress_)
-    return fmt::format("stress fell below {:.0f} % of its peak {:.4g} Pa", 100 * *stop.stress_drop, peak_stress_);
-  if (stop.separated && damaged && separated()) return "separated: no path of shells and intact links joins the grips";
-  if (stop.at_rest && row_ > 0 && row.unbalanced < *stop.at_rest)
-    return fmt::format("at rest: relative unbalanced force {:.2g}", row.unbalanced);
-  for (std::size_t l = 0; l < loads_.size(); ++l)
-    if (loads_[l].stop_force && row.load_force[l].norm() > *loads_[l].stop_force)
-      return fmt::format("load '{}' exerts {:.4g} N", loads_[l].name, row.load_force[l].norm());
-  return row.packed;
-}
-
-/// The stop condition of the room between the walls that holds in the present configuration.
-std::optional<std::string> StageRun::packed() const {
-  if (!(sample_room_ > 0)) return std::nullopt;
-  const std::vector<Vec2> x = points_from(state_.x);
-  const auto room = room_between_walls(sample_, x);
-  if (!room) throw SolverError(fmt::format("t = {:.6g} s: there is no room left between the walls", state_.time));
-  if (const auto& asked = stage_.stop.compaction)
-    if (const double reached = compaction(*room); loosens_ ? reached <= *asked : reached >= *asked)
-      return fmt::format("compaction {:.4g} reached", reached);
-  if (const auto& asked = stage_.stop.void_ratio)
-    if (const double reached = void_ratio(sample_, x, *room); reached < *asked)
-      return fmt::format("void ratio {:.4g} reached", reached);
-  return std::nullopt;
-}
-
-bool StageRun::separated() const {
-  const Pieces pieces = pieces_of(sample_, model_->rupture ? &model_->rupture->broken() : nullptr);
-  std::vector<Index> parent(pieces.count);
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](Index node) {
-    Index c = pieces.of_node[node];
-    while (parent[c] != c) c = parent[c] = parent[parent[c]];
-    return c;
-  };
-  if (model_->links)
-    for (std::size_t l = 0; l < sample_.links.size(); ++l)
-      if (model_->links->intact(static_cast<Index>(l))) parent[root(sample_.links[l].a)] = root(sample_.links[l].b);
-  std::vector<std::uint8_t> low(pieces.count, 0);
-  for (Index i : loads_[0].nodes) low[root(i)] = 1;
-  return std::none_of(loads_[1].nodes.begin(), loads_[1].nodes.end(), [&](Index i) { return low[root(i)] != 0; });
-}
-
-// What the model cannot mean anything beyond: stop with time and object.
-void StageRun::check_health() const {
-  const Field& x = state_.x;
-  const BrokenBars* const broken = model_->rupture ? &model_->rupture->broken() : nullptr;
-  for (Index c = 0; c < sample_.cells(); ++c) {
-    for (Index i = sample_.cell_begin[c]; i < sample_.cell_begin[c + 1]; ++i) {
-      if (!std::isfinite(x.x[i]) || !std::isfinite(x.y[i]))
-        throw SolverError(
-            fmt::format("t = {:.6g} s: the position of node {} of cell {} is no longer a number", state_.time, i, c));
-      if (!sample_.starts_segment(c, i) || (broken && broken->gone(i))) continue;
-      const double l = (x.at(sample_.next(c, i)) - x.at(i)).norm();
-      if (l < 0.1 * sample_.rest_length[i])
-        throw SolverError(fmt::format(
-            "t = {:.6g} s: segment {} of cell {} has collapsed to {:.3g} of its rest length; load more slowly, or "
-            "make the wall stiffer",
-            state_.time, i, c, l / sample_.rest_length[i]));
-    }
-    if (!sample_.closed[c] || !(sample_.rest_area[c] > 0) || (broken && broken->opened(c))) continue;
-    double twice = 0;
-    const Vec2 origin = x.at(sample_.cell_begin[c]);
-    for (Index i = sample_.cell_begin[c]; i < sample_.cell_begin[c + 1]; ++i)
-      twice += cross(x.at(i) - origin, x.at(sample_.next(c, i)) - origin);
-    if (0.5 * twice < 0.02 * sample_.rest_area[c])
-      throw SolverError(fmt::format("t = {:.6g} s: cell {} has {:.3g} of its rest area left, and would turn inside out",
-                                    state_.time, c, 0.5 * twice / sample_.rest_area[c]));
-  }
-  if (model_->links)
-    if (const auto crushed = model_->links->crushed(x))
-      throw SolverError(fmt::format(
-          "t = {:.6g} s: link {} (nodes {} and {}) has been pressed past zero distance; make links or walls stiffer",
-          state_.time, *crushed, sample_.links[*crushed].a, sample_.links[*crushed].b));
-  if (model_->contacts)
-    if (const auto fault = model_->contacts->fault(x))
-      throw SolverError(fmt::format("t = {:.6g} s: {}", state_.time, *fault));
-}
-
 ArraySet StageRun::restart_arrays() const {
   ArraySet out;
   out.add({"x", "m", "node", 2, rows_from(state_.x)});
@@ -381,11 +250,12 @@ ArraySet StageRun::restart_arrays() const {
            std::vector<double>{state_.time, static_cast<double>(state_.step), static_cast<double>(index_)}});
   out.add({"driver", "1", "model", 1,
            std::vector<double>{start_time_, static_cast<double>(row_), static_cast<double>(steps_per_row_), dt_,
-                               last_dt_, peak_stress_, largest_work_, pressure_work_}});
+                               last_dt_, stops_->history().peak_stress, largest_work_, pressure_work_}});
   out.add({"ledger_base", "J", "model", 1, base_});
   out.add({"pressure_lever", "J/Pa", "model", 1, pressure_lever_});
   if (course_) out.add({"course", "1", "model", 1, course_->save()});
-  if (stage_.stop.compaction) out.add({"loosens", "1", "model", 1, std::vector<double>{loosens_ ? 1.0 : 0.0}});
+  if (stage_.stop.compaction)
+    out.add({"loosens", "1", "model", 1, std::vector<double>{stops_->history().loosens ? 1.0 : 0.0}});
   for (const Term* term : model_->terms()) term->save(out);
   if (model_->rupture) model_->rupture->save(out);
   stepper_->save(out);
@@ -445,7 +315,7 @@ std::string StageRun::run(TrajectoryWriter& writer, const SimulateOptions& optio
     // A row: weigh the configuration, in the first step of the interval that it starts. Every so many rows it is a frame too.
     const auto row_start = Clock::now();
     const bool frame = ended || row_ % rows_per_frame_ == 0;
-    check_health();
+    check_health(*model_, state_.x, state_.time);
     if (frame && row_ > 0) plan_step();
     const double time = state_.time, strain = course_ ? course_->strain() : 0.0;
     const std::int64_t step = state_.step;
@@ -467,7 +337,7 @@ std::string StageRun::run(TrajectoryWriter& writer, const SimulateOptions& optio
       if (model_->rupture) model_->rupture->add_output(arrays);
       restart = restart_arrays();
     }
-    const auto reason = packed();
+    const auto reason = stops_->packed(state_.x, state_.time);
     set_loads(dt_);
     const Measurement m = stepper_->measured_step(dt_, 0.5 * (dt_ + last_dt_), exerted.size() > 0 ? &exerted : nullptr);
     last_dt_ = dt_;
@@ -526,7 +396,14 @@ std::string StageRun::run(TrajectoryWriter& writer, const SimulateOptions& optio
     }
     facts.frame_seconds += seconds_since(row_start);
     if (ended) return *ended;
-    ended = stop_reason(row);
+    ended = course_ && course_->finished() ? std::optional(fmt::format("strain {:.4g} reached", strain))
+                                           : stops_->reason({.since = time - start_time_,
+                                                             .stress = row.stress,
+                                                             .broken = broken_ + broken_bars_,
+                                                             .unbalanced = row.unbalanced,
+                                                             .first = row_ == 0,
+                                                             .load_force = row.load_force,
+                                                             .packed = row.packed});
     if (course_) course_->report_unbalanced(row.unbalanced, time - start_time_);
 
     // the rest of the interval; after a stop condition the very next configuration is the last

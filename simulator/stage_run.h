@@ -8,42 +8,32 @@
 #include "simulator/loading.h"
 #include "simulator/model.h"
 #include "simulator/simulate.h"
+#include "simulator/stage.h"
 #include "simulator/steppers/stable_time_step.h"
 #include "simulator/steppers/velocity_verlet.h"
+#include "simulator/stop_conditions.h"
 
 namespace lamella {
 
-class StageRun {
+class StageRun final : public StageDriver {
  public:
-  /// `start`: arrays of a restart, or of the last frame of the stage that this one continues; empty: the sample at rest.
-  /// `resumed`: the start is a frame of this very stage, already on disk.
-  enum class Start { kFresh, kContinued, kResumed };
-  StageRun(const Sample& sample, const Scene& scene, int stage, const ArraySet& start, Start how);
+  StageRun(const Sample& sample, const Scene& scene, int stage, const ArraySet& start, StageStart how);
 
-  /// Columns of the response, and their units, of this stage.
-  void columns(std::vector<std::string>& names, std::vector<std::string>& units) const;
-  std::vector<std::string> summary() const;
-  void describe(Provenance& provenance) const;
-
-  /// Steps until a stop condition holds; writes frames, rows and events. Returns why it ended.
+  void columns(std::vector<std::string>& names, std::vector<std::string>& units) const override;
+  std::vector<std::string> summary() const override;
+  void describe(Provenance& provenance) const override;
   std::string run(TrajectoryWriter& writer, const SimulateOptions& options, const std::vector<std::string>& columns,
-                  RunFacts& facts);
-  /// State at the last frame, for the stage that continues this one.
-  const ArraySet& last() const { return last_; }
+                  RunFacts& facts) override;
+  const ArraySet& last() const override { return last_; }
 
  private:
   struct Row;
   void plan_step();
   void set_loads(double dt);
   void set_pressures();
-  double compaction(const Box& room) const { return 1 - room.area() / sample_room_; }
-  std::optional<std::string> packed() const;
   Row weigh(double energy, const Measurement& m) const;
-  std::optional<std::string> stop_reason(const Row& row);
-  void check_health() const;
   void write(TrajectoryWriter& writer, ArraySet arrays, ArraySet restart, double time, std::int64_t step);
   ArraySet restart_arrays() const;
-  bool separated() const;
   void write_events(TrajectoryWriter& writer);
 
   const Sample& sample_;
@@ -69,9 +59,7 @@ class StageRun {
   double dt_ = 0, last_dt_ = 0;  // [s]
   double duration_ = 0;          // expected, or the limit [s]
   // history of the stage
-  double peak_stress_ = 0;  // [Pa]
-  double sample_room_ = 0;  // between the walls, in the sample [m2]; 0: no stop condition asks
-  bool loosens_ = false;    // the stage began beyond stop.compaction, and ends when it has come back to it
+  std::optional<StopConditions> stops_;
   int broken_ = 0, broken_bars_ = 0;
   double largest_work_ = 0;             // [J]
   std::vector<double> base_;            // ledger at the first row: see weigh()

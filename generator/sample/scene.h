@@ -226,12 +226,18 @@ struct StopScene {
 
 /// [run]
 struct RunScene {
-  std::string stepper = "velocity_verlet";
-  double step_fraction = 0.5;       // of the stable limit (row sums) [1]
-  std::optional<double> time_step;  // [s]; refused above the limit
-  double slowdown = 1;              // prescribed motions, ramps and times take this many times longer [1]
-  std::optional<double> accuracy;   // accepted error of the largest load [1]
+  std::string stepper = "velocity_verlet";  // velocity_verlet | quasi_static
+  double step_fraction = 0.5;               // of the stable limit (row sums) [1]
+  std::optional<double> time_step;          // [s]; refused above the limit
+  double slowdown = 1;                      // prescribed motions, ramps and times take this many times longer [1]
+  std::optional<double> accuracy;           // accepted error of the largest load [1]
   int threads = 1;
+  // quasi_static
+  double residual = 1e-4;                  // force that may be left, over the largest internal force [1]
+  double load_tolerance = 1e-4;            // of a link's criterion, within which it breaks [1]
+  int load_steps = 100;                    // at least, over the whole stage
+  std::string breaking = "one_at_a_time";  // one_at_a_time | all_at_once
+  std::string unstable = "fall";           // fall | follow
 };
 
 /// [output]

@@ -714,7 +714,12 @@ template <>
 const std::vector<Row<RunScene>>& rows() {
   using S = RunScene;
   static const std::vector<Row<S>> list{
-      {.key = "stepper", .member = &S::stepper, .sentence = "How time is stepped.", .choices = {"velocity_verlet"}},
+      {.key = "stepper",
+       .member = &S::stepper,
+       .sentence =
+           "velocity_verlet: explicit, in time, with inertia. quasi_static: equilibrium under a growing load, and the "
+           "exact load of every break; time then only says where loads are.",
+       .choices = {"velocity_verlet", "quasi_static"}},
       {.key = "step_fraction",
        .member = &S::step_fraction,
        .unit = "1",
@@ -745,6 +750,33 @@ const std::vector<Row<RunScene>>& rows() {
        .member = &S::threads,
        .range = between(1, 256),
        .sentence = "The result does not depend on it."},
+      {.key = "residual",
+       .member = &S::residual,
+       .unit = "1",
+       .range = kInsideFraction,
+       .sentence = "quasi_static: largest force that may be left, over the largest internal force."},
+      {.key = "load_tolerance",
+       .member = &S::load_tolerance,
+       .unit = "1",
+       .range = kInsideFraction,
+       .sentence = "quasi_static: a link breaks where its criterion is met within this."},
+      {.key = "load_steps",
+       .member = &S::load_steps,
+       .range = between(1, 1000000),
+       .sentence =
+           "quasi_static: equilibria at least over the stage; walls that flow and contacts that rub need many."},
+      {.key = "breaking",
+       .member = &S::breaking,
+       .sentence =
+           "quasi_static: one_at_a_time: the most loaded link breaks, then equilibrium is found again. all_at_once: "
+           "all links beyond their criteria break together; faster, and rougher.",
+       .choices = {"one_at_a_time", "all_at_once"}},
+      {.key = "unstable",
+       .member = &S::unstable,
+       .sentence =
+           "quasi_static, where links break without more load. fall: the load stays, and the curve drops. follow: the "
+           "load goes back to where the next link just breaks, and the curve snaps back.",
+       .choices = {"fall", "follow"}},
   };
   return list;
 }

@@ -100,7 +100,7 @@ StaticBeam solve_beam(const StudyBench& bench, double beta, int crack, double st
   const Sample sample = make_facing_chains(chains);
   const Exact exact(beta, crack);
   const Scene scene = scene_of(bench, beta, strength);
-  const Field rest = rest_positions(sample);
+  const Field rest = field_of(sample.x);
   const auto model = build_model(sample, scene.stages.front(), rest);
   const StaticBreak found = find_first_break(*model, pulling_loads(chains), rest, 0.9 * strength * exact.load());
   StaticBeam out;

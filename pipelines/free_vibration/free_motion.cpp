@@ -19,12 +19,6 @@ void state_velocities(Stage& stage, const Sample& sample, const std::function<Ve
   state_velocities(stage, velocities);
 }
 
-Field field_of(const std::vector<Vec2>& rows) {
-  Field field(rows.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) field.set(i, rows[i]);
-  return field;
-}
-
 Motion motion_of(const Scene& scene, const StudyRun& run, int frame) {
   const auto x = run.positions(frame);
   const auto v = run.array("v", frame);

@@ -11,8 +11,6 @@ namespace lamella {
 void state_velocities(Stage& stage, const std::vector<Vec2>& velocities);
 void state_velocities(Stage& stage, const Sample& sample, const std::function<Vec2(const Vec2& x)>& velocity);
 
-Field field_of(const std::vector<Vec2>& rows);
-
 /// Sums over all nodes with the velocities half a step before the frame. As x(n) and x(n-1/2) differ by a multiple of the velocity, the angular
 /// momentum is that at n-1/2.
 struct Motion {

@@ -65,12 +65,6 @@ double Rig::angular_momentum() const {
   return sum;
 }
 
-Field field_of(const std::vector<Vec2>& x) {
-  Field out(x.size());
-  for (std::size_t i = 0; i < x.size(); ++i) out.set(i, x[i]);
-  return out;
-}
-
 Tension pull_statically(const Sample& sample, Stage stage) {
   stage.contact.reset();  // facing walls just touch: whether one does is rounding
   const Field x = field_of(sample.x);

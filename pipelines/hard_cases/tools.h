@@ -30,8 +30,6 @@ struct Rig {
   VelocityVerlet stepper;
 };
 
-Field field_of(const std::vector<Vec2>& x);
-
 /// The small-strain answer of a bonded sample pulled along y between the nodes of its bottom and top sides, without contact, by one linear solve.
 struct Tension {
   double modulus = 0;      // stress over strain [Pa]

@@ -326,7 +326,7 @@ struct PatchBreak {
 };
 
 PatchBreak solve_patch(const Sample& sample, const Stage& stage) {
-  const Field rest = rest_positions(sample);
+  const Field rest = field_of(sample.x);
   const auto model = build_model(sample, stage, rest);
   const auto loads = build_loads(sample, stage);
   const Gauge gauge = measure_gauge(sample, stage, loads);

@@ -32,7 +32,7 @@ Eigen::Matrix2d uniaxial(int axis) {
 }
 
 UnitCell::UnitCell(const Sample& patch, const Stage& stage)
-    : patch_(patch), rest_(rest_positions(patch)), model_(build_model(patch, stage, rest_)) {
+    : patch_(patch), rest_(field_of(patch.x)), model_(build_model(patch, stage, rest_)) {
   std::vector<int> walls(patch.cells(), 0);
   for (const Wall& wall : patch.walls) ++walls[wall.cell_a], ++walls[wall.cell_b];
   centre_ = static_cast<Index>(std::max_element(walls.begin(), walls.end()) - walls.begin());

@@ -202,7 +202,7 @@ void lap_shear(StudyBench& bench) {
       const StudyRun run = bench.run(fmt::format("lap_{:g}_{}", ratio, n), sample, scene);
       const double exact = lap_strength(n, ratio), found = load_at_break(run, full, time) / 1e-3;
       report.compare(fmt::format("k_t / k_s = {:g}, n = {}: T_c / f_t0", ratio, n), found, exact, 2e-3);
-      const Field rest = rest_positions(sample);
+      const Field rest = field_of(sample.x);
       const auto model = build_model(sample, scene.stages.front(), rest);
       const StaticBreak at_rest = find_first_break(*model, build_loads(sample, scene.stages.front()), rest, 0.1);
       report.compare(fmt::format("k_t / k_s = {:g}, n = {}: T_c / f_t0, static", ratio, n),

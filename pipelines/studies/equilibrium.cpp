@@ -126,12 +126,6 @@ std::pair<double, Index> most_loaded(const Model& model, const Field& x) {
 
 }  // namespace
 
-Field rest_positions(const Sample& sample) {
-  Field x(sample.x.size());
-  for (std::size_t i = 0; i < sample.x.size(); ++i) x.set(i, sample.x[i]);
-  return x;
-}
-
 Sparse assembled_stiffness(const Model& model, const Field& x) {
   std::vector<int> place(2 * x.size());
   for (std::size_t k = 0; k < place.size(); ++k) place[k] = static_cast<int>(k);

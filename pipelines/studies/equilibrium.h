@@ -9,9 +9,6 @@
 
 namespace lamella {
 
-/// Positions of the sample as it is made [m].
-Field rest_positions(const Sample& sample);
-
 /// d2W / dx2 of all terms together [N/m]; row 2 i + c is component c of node i.
 Eigen::SparseMatrix<double> assembled_stiffness(const Model& model, const Field& x);
 

@@ -45,7 +45,7 @@ Sample sample_of(const Scene& scene) {
 }
 
 double lowest_frequency_of(const Sample& sample, const Scene& scene) {
-  const Field rest = rest_positions(sample);
+  const Field rest = field_of(sample.x);
   const auto model = build_model(sample, scene.stages.front(), rest);
   const auto found = lowest_frequency(*model, build_loads(sample, scene.stages.front()), rest);
   if (!found) throw SolverError(fmt::format("{}: nothing swings in it", scene.path.string()));

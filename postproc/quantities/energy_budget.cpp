@@ -26,7 +26,7 @@ EnergyBudget energy_budget(const Response& response) {
     budget.terms.push_back({column.substr(prefix.size()), response_column(response, column)});
     for (std::size_t k = 0; k < budget.stored.size(); ++k) budget.stored[k] += budget.terms.back().value[k];
   }
-  for (const char* sink : {"kinetic", "damping", "friction", "plastic", "fracture"}) {
+  for (const char* sink : {"kinetic", "damping", "friction", "plastic", "fracture", "released"}) {
     std::vector<double> values = response_column(response, sink);
     if (!values.empty()) budget.sinks.push_back({sink, std::move(values)});
   }

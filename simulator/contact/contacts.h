@@ -49,6 +49,8 @@ class Contacts final : public Term {
   /// Makes sure that every pair of node and cell is listed that can touch before some node has moved by half of skin() from
   /// here. Makes a new list only when neighbours have moved against each other, and never changes a result.
   void update_candidates(const Field& x);
+  /// Whether the present list holds every pair that can touch at x.
+  bool covers(const Field& x) const;
   /// Makes the list of candidates anew, however good the present one.
   void rebuild(const Field& x);
   double skin() const { return 0.5 * rules_.skin; }
@@ -116,7 +118,6 @@ class Contacts final : public Term {
   FrictionSpring next_spring(const Pair& pair, const Touch& touch, const Field& x, double stretch,
                              double& dissipated) const;
   void evaluate_friction(Index pair, const Touch& touch, const Field& x);
-  bool covers(const Field& x) const;
   template <class Visit>
   void for_each_touch(const Field& x, Visit visit) const;
   template <class Visit>

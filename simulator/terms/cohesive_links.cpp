@@ -249,6 +249,28 @@ void CohesiveLinks::break_exceeded(const Field& x, Index first, Index last, Link
   }
 }
 
+CohesiveLinks::Loaded CohesiveLinks::most_loaded(const Field& x, LinkForces& work) const {
+  Loaded most;
+  if (!breakable()) return most;
+  const Index count = static_cast<Index>(a_.size());
+  evaluate(x, 0, count, work);
+  for (Index i = 0; i < count; ++i) {
+    const Index l = link_[i];
+    if (l < 0 || !intact_[l]) continue;
+    const double zeta =
+        yield_function(work.f_n[i + 1], work.f_t[i + 1], p_.normal_strength[l], p_.tangential_strength[l], p_.exponent);
+    if (zeta > most.zeta) most = {zeta, l};
+  }
+  return most;
+}
+
+Break CohesiveLinks::break_at_rest(Index l, const Field& x) {
+  const Break event = broken_at(x, l);
+  intact_[l] = 0;
+  remove_stiffness(l);
+  return event;
+}
+
 std::vector<Index> CohesiveLinks::without_tangent(const BrokenBars& broken) const {
   std::vector<Index> out;
   for (Index l = 0; l < static_cast<Index>(sample_.links.size()); ++l)
@@ -330,34 +352,36 @@ void CohesiveLinks::add_force(const Field& x, Field& f) const {
 // In the coordinates q = (D, tau): with c_D, c_tau the weights of a node in D and tau, its block with another node is
 // sum c c' d2W/dq dq'.
 void CohesiveLinks::add_stiffness(const Field& x, StiffnessSink& sink) const {
-  for (Index i = 0; i < static_cast<Index>(sample_.links.size()); ++i) {
-    if (!intact_[i]) continue;
-    const Link& link = this->link(i);
-    const double k_n = p_.normal_stiffness[i], k_t = p_.tangential_stiffness[i];
-    const State s = state(x, i);
-    const double d_n = s.d.dot(s.n), d_t = s.d.dot(s.t);
-    const Vec2 phi = -s.n / s.tau;  // d(phi)/d(tau); left_of(t) = -n
-    // u_n: d/dD = n, d/dphi = D_t; u_t: d/dD = t, d/dphi = -D_n
-    const double w_phi_phi = k_n * d_t * d_t + k_t * d_n * d_n - s.f_n * d_n - s.f_t * d_t;
-    const Vec2 w_d_phi = (k_n * d_t + s.f_t * -1) * s.n + (-k_t * d_n + s.f_n) * s.t;
-    const Eigen::Matrix2d dd = k_n * s.n * s.n.transpose() + k_t * s.t * s.t.transpose();
-    const Eigen::Matrix2d d_tau = w_d_phi * phi.transpose();
-    // d2(phi)/d(tau)2 = -(t m^T + m t^T) / |tau|^2 with m = left_of(t) = -n
-    const Eigen::Matrix2d tau_tau = w_phi_phi * phi * phi.transpose() +
-                                    s.moment / (s.tau * s.tau) * (s.t * s.n.transpose() + s.n * s.t.transpose());
-    struct Role {
-      Index node;
-      double d, tau;
-    };
-    const Role roles[6] = {{link.a, -1, 0},      {link.b, 1, 0},       {link.a_next, 0, 1},
-                           {link.a_prev, 0, -1}, {link.b_next, 0, -1}, {link.b_prev, 0, 1}};
-    for (const Role& p : roles)
-      for (const Role& q : roles) {
-        const Eigen::Matrix2d block =
-            p.d * q.d * dd + p.d * q.tau * d_tau + p.tau * q.d * d_tau.transpose() + p.tau * q.tau * tau_tau;
-        if (!block.isZero(0)) sink.add(p.node, q.node, block);
-      }
-  }
+  for (Index l = 0; l < static_cast<Index>(sample_.links.size()); ++l)
+    if (intact_[l]) add_stiffness_of(l, x, sink);
+}
+
+void CohesiveLinks::add_stiffness_of(Index i, const Field& x, StiffnessSink& sink) const {
+  const Link& link = this->link(i);
+  const double k_n = p_.normal_stiffness[i], k_t = p_.tangential_stiffness[i];
+  const State s = state(x, i);
+  const double d_n = s.d.dot(s.n), d_t = s.d.dot(s.t);
+  const Vec2 phi = -s.n / s.tau;  // d(phi)/d(tau); left_of(t) = -n
+  // u_n: d/dD = n, d/dphi = D_t; u_t: d/dD = t, d/dphi = -D_n
+  const double w_phi_phi = k_n * d_t * d_t + k_t * d_n * d_n - s.f_n * d_n - s.f_t * d_t;
+  const Vec2 w_d_phi = (k_n * d_t + s.f_t * -1) * s.n + (-k_t * d_n + s.f_n) * s.t;
+  const Eigen::Matrix2d dd = k_n * s.n * s.n.transpose() + k_t * s.t * s.t.transpose();
+  const Eigen::Matrix2d d_tau = w_d_phi * phi.transpose();
+  // d2(phi)/d(tau)2 = -(t m^T + m t^T) / |tau|^2 with m = left_of(t) = -n
+  const Eigen::Matrix2d tau_tau =
+      w_phi_phi * phi * phi.transpose() + s.moment / (s.tau * s.tau) * (s.t * s.n.transpose() + s.n * s.t.transpose());
+  struct Role {
+    Index node;
+    double d, tau;
+  };
+  const Role roles[6] = {{link.a, -1, 0},      {link.b, 1, 0},       {link.a_next, 0, 1},
+                         {link.a_prev, 0, -1}, {link.b_next, 0, -1}, {link.b_prev, 0, 1}};
+  for (const Role& p : roles)
+    for (const Role& q : roles) {
+      const Eigen::Matrix2d block =
+          p.d * q.d * dd + p.d * q.tau * d_tau + p.tau * q.d * d_tau.transpose() + p.tau * q.tau * tau_tau;
+      if (!block.isZero(0)) sink.add(p.node, q.node, block);
+    }
 }
 
 double CohesiveLinks::mode_mix_of(const Break& b) const {

@@ -55,6 +55,8 @@ class CohesiveLinks final : public Term {
   void add_stiffness(const Field& x, StiffnessSink& sink) const override;
   /// Breaks every link whose criterion is exceeded at x, all judged on this one configuration. Breaks are kept in `breaks()`.
   void commit(const Field& x) override;
+  /// The same of one link, intact or not [N/m].
+  void add_stiffness_of(Index link, const Field& x, StiffnessSink& sink) const;
   void save(ArraySet& restart) const override;
   void restore(const ArraySet& restart) override;
   void add_output(const Field& x, ArraySet& frame) const override;
@@ -101,6 +103,15 @@ class CohesiveLinks final : public Term {
   double left_to_friction(const Break& event) const;
   /// A link whose nodes have been pressed past each other (D.n <= 0), if any.
   std::optional<Index> crushed(const Field& x) const;
+  // ---- at rest: one link at a time ----
+  struct Loaded {
+    double zeta = -1;
+    Index link = -1;  // -1: none is intact
+  };
+  /// The intact link that is nearest to its criterion at x, or furthest beyond it. `work` is scratch.
+  Loaded most_loaded(const Field& x, LinkForces& work) const;
+  /// The link is gone from now on, without the half forces of a step in time.
+  Break break_at_rest(Index link, const Field& x);
   // ---- broken bars ----
   /// The link as it is now: its tangent holds only bars that stand.
   const Link& link(Index l) const { return standing_.empty() ? sample_.links[l] : standing_[l]; }

@@ -141,6 +141,12 @@ void write_events(h5::Node& group, const std::vector<Event>& events) {
   group.write("mode_mix", column<double>(events, [](const Event& e) { return e.mode_mix; }));
   group.write("energy", column<double>(events, [](const Event& e) { return e.energy; }));
   group.write("strain", column<double>(events, [](const Event& e) { return e.strain; }));
+  // Likewise those of runs in time.
+  if (std::any_of(events.begin(), events.end(), [](const Event& e) { return e.avalanche >= 0; })) {
+    group.write("avalanche", column<std::int64_t>(events, [](const Event& e) { return e.avalanche; }));
+    group.write("place", column<std::int64_t>(events, [](const Event& e) { return e.place; }));
+    group.write("released", column<double>(events, [](const Event& e) { return e.released; }));
+  }
 }
 
 std::vector<Event> read_events(const h5::Node& group) {
@@ -163,11 +169,14 @@ std::vector<Event> read_events(const h5::Node& group) {
   const auto step = longs("step");
   const auto stage = ints("stage"), link = ints("link");
   const auto names = group.names();
-  const bool with_bars = std::find(names.begin(), names.end(), "bar") != names.end();
-  const auto bar = with_bars ? ints("bar") : std::vector<std::int32_t>(time.size(), -1);
+  const auto has = [&](const char* name) { return std::find(names.begin(), names.end(), name) != names.end(); };
+  const auto bar = has("bar") ? ints("bar") : std::vector<std::int32_t>(time.size(), -1);
   const auto position = doubles("position", 2);
   const auto f_n = doubles("f_n", 1), f_t = doubles("f_t", 1), mode_mix = doubles("mode_mix", 1);
   const auto energy = doubles("energy", 1), strain = doubles("strain", 1);
+  const std::vector<std::int64_t> none(time.size(), -1);
+  const auto avalanche = has("avalanche") ? longs("avalanche") : none, place = has("place") ? longs("place") : none;
+  const auto released = has("released") ? doubles("released", 1) : std::vector<double>(time.size(), 0.0);
   std::vector<Event> events(time.size());
   for (std::size_t i = 0; i < time.size(); ++i) {
     events[i] = {.time = time[i],
@@ -180,7 +189,10 @@ std::vector<Event> read_events(const h5::Node& group) {
                  .mode_mix = mode_mix[i],
                  .energy = energy[i],
                  .strain = strain[i],
-                 .stage = stage[i]};
+                 .stage = stage[i],
+                 .avalanche = avalanche[i],
+                 .place = place[i],
+                 .released = released[i]};
   }
   return events;
 }
@@ -192,7 +204,7 @@ void check_event(const Event& event, const Counts& counts, const std::string& wh
   if (event.bar < 0 && (event.link < 0 || static_cast<std::size_t>(event.link) >= counts.links))
     throw DataError(fmt::format("{}: an event names link {}; there are {}", where, event.link, counts.links));
   for (const double value : {event.time, event.position.x(), event.position.y(), event.f_n, event.f_t, event.mode_mix,
-                             event.energy, event.strain})
+                             event.energy, event.strain, event.released})
     if (!std::isfinite(value))
       throw DataError(fmt::format("{}: the break of {} {} holds a value that is not a finite number", where,
                                   event.bar >= 0 ? "bar" : "link", event.bar >= 0 ? event.bar : event.link));

@@ -69,6 +69,10 @@ struct Event {
   double energy = 0;             // released, booked as fracture [J]
   double strain = 0;             // nominal strain at break
   std::int32_t stage = 0;
+  // At rest, where loads wait for one break after the other; -1 in time.
+  std::int64_t avalanche = -1;  // of which it is part, counted in the stage
+  std::int64_t place = -1;      // in it
+  double released = 0;          // energy that was free to become motion after it [J]
 };
 
 /// Text facts of the run: version, compiler, scene text, effective values, limits, warnings. Sorted by key.

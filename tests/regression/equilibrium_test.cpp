@@ -20,7 +20,7 @@ Vec2 tip_of_cantilever(int n, double load, const std::string& axial_rigidity) {
                  {"sample.shapes.0.segments=" + std::to_string(n), "cells.axial_rigidity=" + axial_rigidity,
                   "loads.weight.force_y=" + std::to_string(-load)});
   const Sample sample = sample_of(scene);
-  const Field rest = rest_positions(sample);
+  const Field rest = field_of(sample.x);
   const auto model = build_model(sample, scene.stages.front(), rest);
   const Equilibrium found = find_equilibrium(*model, build_loads(sample, scene.stages.front()), 1, rest);
   EXPECT_LT(found.unbalanced, 1e-6 * load);
@@ -61,7 +61,7 @@ struct Lap {
     loads = {straight, hold, pull};
   }
   StaticBreak first_break() const {
-    const Field rest = rest_positions(sample);
+    const Field rest = field_of(sample.x);
     return find_first_break(*build_model(sample, stage, rest), loads, rest, 1e-4);
   }
   FacingChains chains;

@@ -20,7 +20,7 @@ Sample cantilever(int n, double clamp_share) {
 /// Small displacements under nodal forces with some coordinates (2 node + component) held.
 Eigen::VectorXd deflection(const Sample& s, const Eigen::VectorXd& load, const std::vector<int>& held) {
   const ShellLayout layout(s);
-  const Field x = field_of(s);
+  const Field x = field_of(s.x);
   Eigen::MatrixXd k = stiffness_of(Bars(layout, {1e3}, {}), x) + stiffness_of(Hinges(layout, {1.0}, {}), x);
   Eigen::VectorXd f = load;
   for (int h : held) {

@@ -92,7 +92,7 @@ Eigen::Matrix2d uniaxial_strain(const Patch& p, const Model& model, const Field&
 TEST(Honeycomb, modulus_and_poisson_ratio_are_those_of_the_closed_form) {
   const Patch p;
   const double k_n = 100, k_t = 10;
-  const Field x = field_of(p.sample);
+  const Field x = field_of(p.sample.x);
   const auto model = build_model(p.sample, honeycomb_stage(k_n, {}), x);
   // sides are 1 - gap / sqrt 3, which is within the tolerance
   const double k_w = 6 * kEI, k_a = 2 * kEA;
@@ -115,7 +115,7 @@ double first_break(int axis) {
   const double k_n = 100, strength = 1e-3;
   Stage stage = honeycomb_stage(k_n, strength);
   stage.drag = DragScene{2.0};
-  const Field rest = field_of(p.sample);
+  const Field rest = field_of(p.sample.x);
   const auto linear = build_model(p.sample, stage, rest);
   const Eigen::VectorXd unit = periodic_displacement(p, *linear, rest, uniaxial_strain(p, *linear, rest, axis));
 

@@ -9,16 +9,10 @@
 
 namespace lamella {
 
-inline Field field_of(const Sample& sample) {
-  Field x(sample.nodes());
-  for (Index i = 0; i < sample.nodes(); ++i) x.set(i, sample.x[i]);
-  return x;
-}
-
 /// Positions of the sample, each node moved by up to `amplitude` in each direction.
 inline Field shaken(const Sample& sample, double amplitude, unsigned seed = 1) {
   std::mt19937 random(seed);
-  Field x = field_of(sample);
+  Field x = field_of(sample.x);
   const auto draw = [&] { return amplitude * (2.0 * random() / 4294967295.0 - 1.0); };
   for (std::size_t i = 0; i < x.size(); ++i) x.x[i] += draw(), x.y[i] += draw();
   return x;

@@ -61,14 +61,14 @@ TEST(Rupture, a_strength_above_the_yield_force_is_refused) {
   stage.cells["cells"] = cell_scene(10.0, 1.0, 1.0);
   stage.cells["cells"].yield_force = 0.2, stage.cells["cells"].yield_moment = 1.0;
   stage.cells["cells"].break_force = 0.3;
-  EXPECT_THROW(build_model(s, stage, field_of(s)), SceneError);
+  EXPECT_THROW(build_model(s, stage, field_of(s.x)), SceneError);
 }
 
 TEST(Rupture, walls_without_strength_have_nothing_of_it) {
   const Sample s = ring_sample(8);
   Stage stage;
   stage.cells["cells"] = cell_scene(10.0, 1.0, 1.0);
-  EXPECT_EQ(build_model(s, stage, field_of(s))->rupture, nullptr);
+  EXPECT_EQ(build_model(s, stage, field_of(s.x))->rupture, nullptr);
 }
 
 /// A ring with a core of its own fluid under pressure, whose bars break where they are drawn to 1.3.
@@ -276,8 +276,8 @@ TEST(Rupture, contact_forgets_the_bar_and_meets_its_ends) {
   ContactParameters p;
   p.node_stiffness.assign(s.nodes(), 1.0);
   p.node_mass.assign(s.nodes(), 1.0);
-  Contacts contacts(s, p, field_of(s));
-  const Field x = field_of(s);
+  Contacts contacts(s, p, field_of(s.x));
+  const Field x = field_of(s.x);
   EXPECT_GT(contacts.energy(x), 0);
   BrokenBars broken(s);
   contacts.watch(broken);

@@ -244,14 +244,14 @@ TEST(Model, links_on_a_sample_without_any_are_refused) {
   Stage stage;
   stage.cells["cells"] = cell_scene(50.0, 1.0, 1.0);
   stage.links["links"] = link_scene("length", 1.0, 1.0);
-  EXPECT_THROW(build_model(s, stage, field_of(s)), SceneError);
+  EXPECT_THROW(build_model(s, stage, field_of(s.x)), SceneError);
 }
 
 TEST(Model, an_elastic_scene_has_no_plastic_arrays_and_a_scene_without_links_none_of_theirs) {
   const Sample s = hexagons(2, 2, 2, 0.05);
   Stage stage;
   stage.cells["cells"] = cell_scene(50.0, 1.0, 1.0);
-  const Field x = field_of(s);
+  const Field x = field_of(s.x);
   const auto bare = build_model(s, stage, x);
   EXPECT_EQ(bare->terms().size(), 2u);
   ArraySet frame;

@@ -67,7 +67,7 @@ TEST(Bars, a_bar_pulled_past_yield_keeps_the_yield_force_and_the_plastic_length)
   const Sample s = chain_sample(1);
   const ShellLayout layout(s);
   Bars bars(layout, {2.0}, {0.1});  // yields at elongation 0.05
-  Field x = field_of(s);
+  Field x = field_of(s.x);
   x.x[1] += 0.15;
   EXPECT_NEAR(force_of(bars, x)[0], 0.1, 1e-15);
   bars.commit(x);
@@ -94,7 +94,7 @@ TEST(Hinges, moment_is_continuous_and_returns_to_zero_over_three_turns) {
   const Sample s = chain_sample(2);
   const ShellLayout layout(s);
   Hinges hinges(layout, {1.0}, {});
-  Field x = field_of(s);
+  Field x = field_of(s.x);
   const int steps = 300;
   double last = 0;
   for (int direction : {1, -1})
@@ -124,7 +124,7 @@ TEST(Core, force_and_stiffness_are_derivatives_of_the_energy) {
 TEST(Core, pressure_pushes_each_edge_with_p_s_l) {
   const Sample s = ring_sample(6);
   const ShellLayout layout(s);
-  const Eigen::VectorXd f = force_of(Core(layout, {{0.0}, {2.0}, {3.0}}), field_of(s));
+  const Eigen::VectorXd f = force_of(Core(layout, {{0.0}, {2.0}, {3.0}}), field_of(s.x));
   const double edge = s.rest_length[0];  // force on a node: p s l cos(pi / N), outwards
   for (int i = 0; i < 6; ++i)
     EXPECT_NEAR(f.segment<2>(2 * i).dot(s.x[i]), 2.0 * 3.0 * edge * std::cos(std::numbers::pi / 6), 1e-12);
@@ -199,7 +199,7 @@ TEST(Links, a_single_link_breaks_where_the_closed_form_says_over_all_mode_mixes)
       LinkParameters p = link_parameters(s, 1.0, 0.1);
       make_breakable(p, 1.0, 0.5);
       CohesiveLinks links(layout, p);
-      Field x = field_of(s);
+      Field x = field_of(s.x);
       const Vec2 n = Vec2(0, 1), t = Vec2(-1, 0);  // the lower square's upper side runs towards -x
       for (Index i = 4; i < 8; ++i) x.add(i, u * (std::cos(phi * degree) * n + std::sin(phi * degree) * t));
       links.commit(x);
@@ -216,7 +216,7 @@ TEST(Links, a_broken_link_holds_no_energy_and_no_force) {
   LinkParameters p = link_parameters(s, 1.0, 0.1);
   make_breakable(p, 1e-3, 1e-3);
   CohesiveLinks links(layout, p);
-  Field x = field_of(s);
+  Field x = field_of(s.x);
   for (Index i = 8; i < 16; ++i) x.y[i] += 0.01;
   const double stored = links.energy(x);
   links.commit(x);

@@ -82,7 +82,7 @@ inline Sample hexagons(int rows, int columns, int segments, double gap) {
 /// A model with its loads and stepper, at rest at time 0.
 struct Rig {
   Rig(const Sample& sample, const Stage& stage, std::vector<Load> with = {}, int threads = 1)
-      : state{field_of(sample), Field(sample.nodes()), 0, 0},
+      : state{field_of(sample.x), Field(sample.nodes()), 0, 0},
         model(build_model(sample, stage, state.x)),
         loads(std::move(with)),
         stepper(*model, loads, state, threads) {}

@@ -1,0 +1,255 @@
+#include "simulator/steppers/equilibrium.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+namespace lamella {
+namespace {
+
+constexpr int kMostIterations = 400, kMostHalvings = 30;
+constexpr std::size_t kPairs = 12;  // of limited-memory BFGS
+// A factor is made anew where the rate of convergence so far asks for more iterations than this.
+constexpr double kPatience = 20;
+// Over the largest diagonal. Loose fragments make the stiffness singular; this keeps it regular, and moves nothing: the forces say when
+// equilibrium is reached.
+constexpr double kLeastShift = 1e-12, kMostShift = 1;
+// Over stiffness times extent: positions are rounded, and with them forces.
+constexpr double kRounding = 8 * 2.2e-16;
+// No node goes further in one iteration, in mean segments.
+constexpr double kFarthest = 0.5;
+
+}  // namespace
+
+EquilibriumSolver::EquilibriumSolver(Model& model, const std::vector<Load>& loads)
+    : model_(model),
+      shell_terms_(model.shell_terms()),
+      free_(static_cast<std::size_t>(model.sample.nodes()), loads),
+      stiffness_(free_),
+      scratch_(model.layout),
+      dead_(model.sample.nodes()),
+      f_(model.sample.nodes()) {
+  for (Term* term : model.terms())
+    if (std::find(shell_terms_.begin(), shell_terms_.end(), term) == shell_terms_.end()) other_terms_.push_back(term);
+  Index count = 0;
+  for (double l : model.sample.rest_length)
+    if (l > 0) length_ += l, ++count;
+  length_ /= std::max<Index>(1, count);
+}
+
+void EquilibriumSolver::set_anchors(std::vector<double> stiffness, Field positions) {
+  if (stiffness.size() != anchor_stiffness_.size()) factored_ = false;
+  anchor_stiffness_ = std::move(stiffness);
+  anchor_ = std::move(positions);
+}
+
+// A list of contacts that no longer covers x would be searched for anew in every evaluation.
+void EquilibriumSolver::follow_contacts(const Field& x) {
+  if (model_.contacts && !model_.contacts->covers(x)) model_.contacts->rebuild(x);
+}
+
+void EquilibriumSolver::evaluate(const Field& x, Eigen::VectorXd& free) {
+  follow_contacts(x);
+  ++cost_.forces;
+  f_ = dead_;
+  double largest = 0;
+  for (std::size_t i = 0; i < dead_.size(); ++i) largest = std::max(largest, dead_.at(i).squaredNorm());
+  const Sample& sample = model_.sample;
+  for (const CellBlock& block : model_.layout.blocks()) {
+    scratch_.load(sample, block, x);
+    for (const ShellTerm* term : shell_terms_) term->add_to_block(scratch_, f_);
+    scratch_.add_section_forces(sample, f_);
+    for (Index c = block.cell_begin; c < block.cell_end; ++c) {
+      const Index at = ShellLayout::slot(c, sample.cell_begin[c]) - block.slot_begin;
+      for (Index k = at; k < at + sample.cell_size(c); ++k)
+        largest = std::max(largest, scratch_.sx[k] * scratch_.sx[k] + scratch_.sy[k] * scratch_.sy[k]);
+    }
+  }
+  for (const Term* term : other_terms_) term->add_force(x, f_);
+  for (std::size_t i = 0; i < anchor_stiffness_.size(); ++i)
+    f_.add(i, -anchor_stiffness_[i] * (x.at(i) - anchor_.at(i)));
+  scale_ = std::sqrt(largest);
+  free = free_.gathered(f_);
+}
+
+double EquilibriumSolver::measure(const Eigen::VectorXd& f) {
+  if (f.size() == 0) return residual_ = 0;
+  Eigen::Index at = 0;
+  const double left = f.cwiseAbs().maxCoeff(&at);
+  worst_node_ = free_.node_of(static_cast<int>(at));
+  return residual_ = left > rounding_ ? left / (left + scale_) : 0.0;
+}
+
+void EquilibriumSolver::refactor(const Field& x) {
+  const bool changed = stiffness_.assemble([&](StiffnessSink& sink) {
+    for (const Term* term : model_.terms()) term->add_stiffness(x, sink);
+  });
+  if (changed) analyzed_ = false;
+  factored_values_ = stiffness_.values();
+  add_anchors(stiffness_, free_, factored_values_);
+  if (!analyzed_) factor_.analyze(stiffness_.column_begin(), stiffness_.rows());
+  analyzed_ = true;
+  const double largest = stiffness_.largest_diagonal();
+  const auto [left, right] = std::minmax_element(x.x.begin(), x.x.end());
+  const auto [low, high] = std::minmax_element(x.y.begin(), x.y.end());
+  rounding_ = kRounding * largest * std::max(*right - *left, *high - *low);
+  // A shift that was needed a moment ago is tried a little smaller; most of the time none is.
+  for (shift_ = std::max(kLeastShift, 1e-3 * shift_); shift_ <= kMostShift; shift_ *= 30) {
+    ++cost_.factorizations;
+    factored_ = factor_.factorize(stiffness_.column_begin(), stiffness_.rows(), factored_values_, shift_ * largest);
+    if (factored_) break;
+  }
+  factor_x_ = x;
+  pairs_.clear();
+}
+
+void EquilibriumSolver::add_anchors(const StiffnessMatrix& k, const FreeComponents& free,
+                                    std::vector<double>& values) const {
+  for (Index i = 0; i < static_cast<Index>(anchor_stiffness_.size()); ++i)
+    for (int c = 0; c < 2; ++c)
+      if (const int row = free.row(i, c); row >= 0) values[k.column_begin()[row]] += anchor_stiffness_[i];
+}
+
+Eigen::VectorXd EquilibriumSolver::direction(const Eigen::VectorXd& f) {
+  Eigen::VectorXd q = f;
+  std::vector<double> alpha(pairs_.size());
+  for (std::size_t k = pairs_.size(); k-- > 0;) {
+    alpha[k] = pairs_[k].rho * pairs_[k].s.dot(q);
+    q -= alpha[k] * pairs_[k].y;
+  }
+  ++cost_.solves;
+  q = factor_.solve(q);
+  for (std::size_t k = 0; k < pairs_.size(); ++k) q += (alpha[k] - pairs_[k].rho * pairs_[k].y.dot(q)) * pairs_[k].s;
+  return q;
+}
+
+const Eigen::VectorXd& EquilibriumSolver::response(const Field& x, const Eigen::VectorXd& f) {
+  if (!factored_) refactor(x);
+  ++cost_.solves;
+  return factor_.solve(f);
+}
+
+bool EquilibriumSolver::relax(Field& x, double tolerance) {
+  ++cost_.searches;
+  pairs_.clear();
+  const Field start = x;
+  Eigen::VectorXd f, next;
+  evaluate(x, f);
+  double first = measure(f), before = first;
+  int since_factor = 0;
+  for (int iteration = 0; iteration < kMostIterations; ++iteration) {
+    if (!std::isfinite(residual_)) break;
+    if (residual_ <= tolerance) return true;
+    ++cost_.iterations;
+    if (!factored_) {
+      refactor(x), since_factor = 0, first = before;
+      if (!factored_ || measure(f) <= tolerance) break;
+    }
+    Eigen::VectorXd step = direction(f);
+    double slope = step.dot(f);
+    if (!(slope > 0)) {
+      pairs_.clear();
+      step = direction(f);
+      slope = step.dot(f);
+    }
+    const double farthest = step.cwiseAbs().maxCoeff();
+    double alpha = std::min(1.0, kFarthest * length_ / farthest);
+    Field there = x;
+    bool found = false;
+    for (int halving = 0; halving < kMostHalvings; ++halving) {
+      there = x;
+      free_.add(step, alpha, there);
+      evaluate(there, next);
+      const double slope_there = step.dot(next);
+      if (std::isfinite(slope_there) && slope_there >= -0.7 * slope) {
+        found = true;
+        break;
+      }
+      const double secant = std::isfinite(slope_there) ? slope / (slope - slope_there) : 0.1;
+      alpha *= std::clamp(secant, 0.1, 0.7);
+    }
+    if (!found) {
+      failure_ = "the line search found no way down";
+      if (since_factor > 0) {
+        factored_ = false;
+        evaluate(x, f);
+        continue;
+      }
+      break;
+    }
+    Pair pair{alpha * step, f - next, 0};
+    const double sy = pair.s.dot(pair.y);
+    if (sy > 1e-12 * pair.s.norm() * pair.y.norm()) {
+      pair.rho = 1 / sy;
+      pairs_.push_back(std::move(pair));
+      if (pairs_.size() > kPairs) pairs_.pop_front();
+    }
+    std::swap(x, there);
+    std::swap(f, next);
+    before = residual_;
+    measure(f);
+    ++since_factor;
+    // The rate so far, and what it promises.
+    const double rate = std::log(std::max(first, 1e-300) / std::max(residual_, 1e-300)) / since_factor;
+    const double left = std::log(std::max(residual_, 1e-300) / tolerance);
+    if (since_factor >= 4 && left > 0 && (rate <= 0 || left / rate > kPatience)) {
+      factored_ = false;
+      first = residual_;
+    }
+  }
+  if (residual_ <= tolerance) return true;
+  if (failure_.empty()) failure_ = fmt::format("no convergence in {} iterations", kMostIterations);
+  x = start;
+  return false;
+}
+
+void EquilibriumSolver::drop_link(Index link) {
+  if (!factored_) return;
+  // Its stiffness as the factor holds it.
+  std::vector<int> rows;
+  Eigen::MatrixXd k = Eigen::MatrixXd::Zero(12, 12);
+  struct Local final : StiffnessSink {
+    Local(const FreeComponents& f, std::vector<int>& r, Eigen::MatrixXd& m) : free(f), rows(r), k(m) {}
+    int place(int row) {
+      const auto at = std::find(rows.begin(), rows.end(), row);
+      if (at != rows.end()) return static_cast<int>(at - rows.begin());
+      rows.push_back(row);
+      return static_cast<int>(rows.size()) - 1;
+    }
+    void add(Index i, Index j, const Eigen::Matrix2d& block) override {
+      for (int a = 0; a < 2; ++a)
+        for (int b = 0; b < 2; ++b) {
+          const int row = free.row(i, a), column = free.row(j, b);
+          if (row >= 0 && column >= 0) k(place(row), place(column)) += block(a, b);
+        }
+    }
+    const FreeComponents& free;
+    std::vector<int>& rows;
+    Eigen::MatrixXd& k;
+  } local(free_, rows, k);
+  model_.links->add_stiffness_of(link, factor_x_, local);
+  const Eigen::Index n = static_cast<Eigen::Index>(rows.size());
+  if (n == 0) return;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(k.topLeftCorner(n, n));
+  const double largest = modes.eigenvalues().cwiseAbs().maxCoeff();
+  // What has held the walls apart first, then what has held them together.
+  for (const int sign : {+1, -1}) {
+    std::vector<Eigen::Index> kept;
+    for (Eigen::Index m = 0; m < n; ++m)
+      if (-sign * modes.eigenvalues()[m] > 1e-10 * largest) kept.push_back(m);
+    if (kept.empty()) continue;
+    Eigen::MatrixXd c(n, static_cast<Eigen::Index>(kept.size()));
+    for (std::size_t m = 0; m < kept.size(); ++m)
+      c.col(static_cast<Eigen::Index>(m)) =
+          std::sqrt(std::abs(modes.eigenvalues()[kept[m]])) * modes.eigenvectors().col(kept[m]);
+    if (!factor_.update(rows, c, sign)) {
+      factored_ = false;
+      return;
+    }
+  }
+  ++cost_.updates;
+}
+
+}  // namespace lamella

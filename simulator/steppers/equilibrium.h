@@ -1,0 +1,85 @@
+// Finds where the model is at rest: the minimum of W(x) - f . x + 1/2 sum d (x - a)^2 over the free components, with history frozen. W is
+// the energy of the terms, f are dead forces, and the last sum is what implicit steps in time add (d = m / dt^2); statics have none.
+//
+// Newton's method whose tangent is kept: a sparse Cholesky factor of an earlier stiffness, from which links that break are taken out as
+// they do (low rank), gives the first direction; limited-memory BFGS updates bring what has changed since. A new factor is made only
+// where that no longer converges fast. Where the stiffness is not positive definite it is shifted until it is, so that every direction goes
+// downhill; a line search on the slope along it makes every step one.
+#pragma once
+#include <deque>
+
+#include "simulator/assembly.h"
+#include "simulator/solver_cost.h"
+#include "simulator/steppers/sparse_factor.h"
+
+namespace lamella {
+
+class EquilibriumSolver {
+ public:
+  /// `loads`: only which components they hold matters.
+  EquilibriumSolver(Model& model, const std::vector<Load>& loads);
+
+  /// Forces that do not depend on the positions [N].
+  void set_dead_forces(const Field& f) { dead_ = f; }
+  /// d [N/m] of each node, and a [m]. Empty: statics.
+  void set_anchors(std::vector<double> stiffness, Field positions);
+
+  /// Moves the free components of x to rest. Converged: the largest force that is left is below `tolerance` times the largest internal
+  /// force. Returns whether it is; if not, x is as it was.
+  bool relax(Field& x, double tolerance);
+  /// At the end of the last search: the largest force that is left over the largest internal force; the node that has it.
+  double residual() const { return residual_; }
+  Index worst_node() const { return worst_node_; }
+  /// The largest internal force: of the walls' sections and dead forces [N].
+  double internal_force() const { return scale_; }
+  /// Forces of all terms and dead forces at the end of the last search; on what is held, the opposite of what loads exert [N].
+  const Field& force() const { return f_; }
+
+  /// The first-order motion of the free components for the force that is left at x: K^-1 f. Makes a factor at x where there is none.
+  const Eigen::VectorXd& response(const Field& x, const Eigen::VectorXd& f);
+  /// All forces at x; `free` receives those on free components.
+  void evaluate(const Field& x, Eigen::VectorXd& free);
+  const FreeComponents& free() const { return free_; }
+
+  /// This link is about to break: takes its stiffness out of the factor.
+  void drop_link(Index link);
+  /// Forgets the factor: the next search makes one. What follows then depends on x alone, and not on how it was come by.
+  void forget() { factored_ = false; }
+  const SolverCost& cost() const { return cost_; }
+  /// What made the last search fail.
+  const std::string& failure() const { return failure_; }
+
+ private:
+  void refactor(const Field& x);
+  void add_anchors(const StiffnessMatrix& k, const FreeComponents& free, std::vector<double>& values) const;
+  Eigen::VectorXd direction(const Eigen::VectorXd& f);
+  void follow_contacts(const Field& x);
+  double measure(const Eigen::VectorXd& f);
+
+  Model& model_;
+  std::vector<Term*> other_terms_;  // all but shell terms
+  std::vector<ShellTerm*> shell_terms_;
+  FreeComponents free_;
+  StiffnessMatrix stiffness_;
+  SparseFactor factor_;
+  ShellScratch scratch_;
+  Field dead_, anchor_, f_;
+  std::vector<double> anchor_stiffness_;
+  bool analyzed_ = false, factored_ = false;
+  Field factor_x_;  // where the factor was made
+  std::vector<double> factored_values_;
+  double shift_ = 0;  // of the last factor, over the largest diagonal
+  double scale_ = 0, residual_ = 0;
+  double length_ = 0;    // mean segment [m]
+  double rounding_ = 0;  // force below which nothing can be told [N]
+  Index worst_node_ = 0;
+  struct Pair {
+    Eigen::VectorXd s, y;
+    double rho = 0;
+  };
+  std::deque<Pair> pairs_;
+  SolverCost cost_;
+  std::string failure_;
+};
+
+}  // namespace lamella

@@ -1,0 +1,274 @@
+#include "simulator/steppers/quasi_static.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "generator/sample/errors.h"
+
+namespace lamella {
+namespace {
+
+constexpr int kMostTries = 60;       // of one increment
+constexpr double kShortest = 1e-12;  // increment, over the longest: below, a jump of the criterion is a jump
+constexpr double kProbe = 1e-4;      // way of a grip from which its tangent is found, in mean segments
+
+}  // namespace
+
+QuasiStatic::QuasiStatic(Model& model, const std::vector<Load>& loads, const LoadPath& path, Field x, double start_time,
+                         const QuasiStaticSettings& settings)
+    : model_(model),
+      loads_(loads),
+      path_(path),
+      settings_(settings),
+      solver_(model, loads),
+      x_(std::move(x)),
+      dead_(x_.size()),
+      start_time_(start_time) {
+  for (std::size_t l = 0; l < loads.size(); ++l)
+    for (Index i : loads[l].nodes)
+      for (int c = 0; c < 2; ++c)
+        if (loads[l].holds[c]) held_.push_back({i, c, l, x_.at(i)[c]});
+  reaction_.assign(held_.size(), 0.0);
+  dissipates_ = model.friction > 0;
+  for (const ShellTerm* term : model.shell_terms()) dissipates_ = dissipates_ || term->plastic();
+  Index count = 0;
+  for (double l : model.sample.rest_length)
+    if (l > 0) segment_ += l, ++count;
+  segment_ /= std::max<Index>(1, count);
+}
+
+/// Puts what is held where it is at that time, and sets forces and pressures.
+void QuasiStatic::prescribe(double time, Field& x) {
+  std::vector<Vec2> way;
+  Field dead(x.size());
+  for (const Load& load : loads_) {
+    way.push_back(path_.way(load, time));
+    if (!load.pushes) continue;
+    const double factor = path_.force_factor(load, time);
+    for (std::size_t k = 0; k < load.nodes.size(); ++k) dead.add(load.nodes[k], factor * load.force[k]);
+  }
+  for (const Held& h : held_) (h.component == 0 ? x.x : x.y)[h.node] = h.origin + way[h.load][h.component];
+  solver_.set_dead_forces(dead);
+  for (const PressureHistory& history : model_.pressure_histories)
+    if (model_.core->present(history.cell)) model_.core->set_pressure(history.cell, history.at(time));
+}
+
+double QuasiStatic::criterion(const Field& x) {
+  return model_.links ? model_.links->most_loaded(x, link_work_).zeta : -1.0;
+}
+
+double QuasiStatic::potential(const Field& x) const {
+  double sum = 0;
+  for (const Term* term : model_.terms()) sum += term->energy(x);
+  for (std::size_t i = 0; i < x.size(); ++i) sum -= dead_.at(i).dot(x.at(i));
+  return sum;
+}
+
+// History moves in all terms but the links: those break in `fall`, one after the other.
+void QuasiStatic::commit() {
+  for (Term* term : model_.terms())
+    if (term != model_.links.get()) term->commit(x_);
+}
+
+void QuasiStatic::book_pressures(double time) {
+  std::vector<double> now;
+  for (std::size_t k = 0; k < model_.pressure_histories.size(); ++k) {
+    const PressureHistory& history = model_.pressure_histories[k];
+    now.push_back(model_.core->energy_per_pressure(history.cell, x_));
+    const double rise = history.at(time) - history.at(time_);
+    if (!lever_.empty()) works_.pressure += rise * 0.5 * (lever_[k] + now[k]);
+  }
+  lever_ = std::move(now);
+}
+
+/// The configuration at which the solver has just arrived becomes the present one.
+void QuasiStatic::accept(double time, Field x) {
+  const Field& f = solver_.force();
+  Field dead(x.size());
+  for (const Load& load : loads_)
+    if (load.pushes)
+      for (std::size_t k = 0; k < load.nodes.size(); ++k)
+        dead.add(load.nodes[k], path_.force_factor(load, time) * load.force[k]);
+  for (std::size_t k = 0; k < held_.size(); ++k) {
+    const Held& h = held_[k];
+    const double reaction = -f.at(h.node)[h.component];
+    works_.loads += 0.5 * (reaction + reaction_[k]) * (x.at(h.node)[h.component] - x_.at(h.node)[h.component]);
+    reaction_[k] = reaction;
+  }
+  for (std::size_t i = 0; i < x.size(); ++i) works_.loads += 0.5 * (dead.at(i) + dead_.at(i)).dot(x.at(i) - x_.at(i));
+  dead_ = std::move(dead);
+  x_ = std::move(x);
+  book_pressures(time);
+  time_ = time;
+}
+
+void QuasiStatic::give_up(const std::string& what, double time) const {
+  const Index node = solver_.worst_node();
+  throw SolverError(fmt::format(
+      "t = {:.6g} s (strain {:.6g}): {}: {}; {:.3g} of the largest internal force {:.3g} N is left, most on node {} at "
+      "({:.4g}, {:.4g}) m. Nothing may hold the sample any more under its loads, or walls and contacts are too stiff "
+      "or too "
+      "soft; prescribe motion instead of force, or go on with an explicit stepper",
+      start_time_ + time, path_.strain(time), what, solver_.failure(), solver_.residual(), solver_.internal_force(),
+      node, x_.x[node], x_.y[node]));
+}
+
+void QuasiStatic::settle() {
+  Field x = x_;
+  prescribe(time_, x);
+  dead_ = Field(x.size());
+  if (!solver_.relax(x, settings_.residual)) give_up("no equilibrium to start from", time_);
+  accept(time_, std::move(x));
+  works_ = {};
+  commit();
+  critical_ = criterion(x_) >= -settings_.load_tolerance;
+}
+
+bool QuasiStatic::try_at(double time, Field& x) {
+  prescribe(time, x);
+  return solver_.relax(x, settings_.residual);
+}
+
+void QuasiStatic::load_towards(double end) {
+  if (critical_) return;
+  while (time_ < end && !critical_) {
+    const double h = std::min(end - time_, settings_.longest);
+    // The first-order motion, from the force that a small part of this increment leaves.
+    double farthest = 0;
+    for (const Load& load : loads_)
+      farthest = std::max(farthest, (path_.way(load, time_ + h) - path_.way(load, time_)).norm());
+    const double probe = std::min(1.0, farthest > 0 ? kProbe * segment_ / farthest : 1e-3);
+    Field moved = x_;
+    prescribe(time_ + probe * h, moved);
+    solver_.evaluate(moved, work_);
+    const Eigen::VectorXd motion = solver_.response(x_, work_) / probe;
+    const auto predicted = [&](double step) {
+      Field x = x_;
+      solver_.free().add(motion, step / h, x);
+      return x;
+    };
+    // How far it can go before a link reaches its criterion, by that motion.
+    const double before = criterion(x_);
+    double step = h, low = 0, high = h, z_low = before, z_high = criterion(predicted(h));
+    if (z_high > 0) {
+      for (int k = 0; k < 40 && high - low > 1e-6 * h; ++k) {
+        step = std::clamp(low - z_low * (high - low) / (z_high - z_low), low + 0.05 * (high - low),
+                          high - 0.05 * (high - low));
+        const double z = criterion(predicted(step));
+        if (std::abs(z) < 0.3 * settings_.load_tolerance) break;
+        (z > 0 ? high : low) = step, (z > 0 ? z_high : z_low) = z;
+      }
+    }
+    // There, and as far back or on as it takes.
+    low = 0, z_low = before, high = 0, z_high = 0;
+    Field there = predicted(step);
+    for (int tries = 0;; ++tries) {
+      if (!try_at(time_ + step, there)) {
+        step = low + 0.3 * (step - low);
+        if (tries > kMostTries || step < kShortest * h)
+          give_up("no equilibrium under a little more load", time_ + step);
+        there = predicted(step);
+        high = 0;
+        continue;
+      }
+      const double z = criterion(there);
+      const bool at_last = high > 0 && high - low < kShortest * h;
+      if (z <= settings_.load_tolerance || at_last || tries > kMostTries) {
+        accept(step == h && h == end - time_ ? end : time_ + step, std::move(there));
+        commit();
+        critical_ = z >= -settings_.load_tolerance;
+        break;
+      }
+      high = step, z_high = z;
+      const double next = std::clamp(low - z_low * (high - low) / (z_high - z_low), low + 0.1 * (high - low),
+                                     high - 1e-3 * (high - low));
+      for (std::size_t i = 0; i < there.size(); ++i) there.set(i, x_.at(i) + next / step * (there.at(i) - x_.at(i)));
+      step = next;
+    }
+  }
+}
+
+void QuasiStatic::break_link(Index link, std::int64_t place) {
+  CohesiveLinks& links = *model_.links;
+  Contacts* const contacts = model_.contacts.get();
+  solver_.drop_link(link);
+  const double ignoring = contacts ? contacts->pressing_across(link, x_) : 0.0;
+  BreakAtRest event;
+  event.link = links.break_at_rest(link, x_);
+  links.set_break_time(link, start_time_ + time_);
+  if (contacts) {
+    const double rubbing = contacts->release(link, x_, event.link.friction_force);
+    const double pressing = contacts->pressing_across(link, x_) - links.left_to_contact(event.link, x_);
+    event.link.energy -= pressing - ignoring + rubbing - links.left_to_friction(event.link);
+  }
+  works_.fracture += event.link.energy;
+  potential_ -= event.link.energy;
+  event.avalanche = avalanches_, event.place = place, event.time = time_;
+  breaks_.push_back(event);
+}
+
+void QuasiStatic::fall(const std::function<bool()>& go_on) {
+  std::int64_t place = 0;
+  potential_ = potential(x_);
+  while (critical_ && go_on()) {
+    const std::size_t first = breaks_.size();
+    do {
+      break_link(model_.links->most_loaded(x_, link_work_).link, place++);
+    } while (settings_.all_at_once && criterion(x_) > 0);
+    Field x = x_;
+    if (!try_at(time_, x)) give_up("no equilibrium after a break at this load", time_);
+    const double before = potential_;
+    accept(time_, std::move(x));
+    potential_ = potential(x_);
+    const double released = before - potential_;
+    works_.released += released;
+    for (std::size_t k = first; k < breaks_.size(); ++k)
+      breaks_[k].released = released / static_cast<double>(breaks_.size() - first);
+    commit();
+    if (dissipates_) potential_ = potential(x_);
+    critical_ = criterion(x_) > 0;
+  }
+  ++avalanches_;
+}
+
+std::vector<Vec2> QuasiStatic::load_forces() const {
+  std::vector<Vec2> sum(loads_.size(), Vec2::Zero());
+  for (std::size_t k = 0; k < held_.size(); ++k) sum[held_[k].load][held_[k].component] += reaction_[k];
+  for (std::size_t l = 0; l < loads_.size(); ++l)
+    if (loads_[l].pushes)
+      for (const Vec2& f : loads_[l].force) sum[l] += path_.force_factor(loads_[l], time_) * f;
+  return sum;
+}
+
+Field QuasiStatic::load_force_on_nodes() const {
+  Field f = dead_;
+  for (std::size_t k = 0; k < held_.size(); ++k) (held_[k].component == 0 ? f.x : f.y)[held_[k].node] += reaction_[k];
+  return f;
+}
+
+void QuasiStatic::save(ArraySet& restart) const {
+  restart.add({"static_driver", "1", "model", 1,
+               std::vector<double>{time_, works_.loads, works_.pressure, works_.fracture, works_.released,
+                                   static_cast<double>(avalanches_), critical_ ? 1.0 : 0.0}});
+  std::vector<double> origin;
+  for (const Held& h : held_) origin.push_back(h.origin);
+  restart.add({"static_origin", "m", "model", 1, std::move(origin)});
+}
+
+void QuasiStatic::restore(const ArraySet& restart) {
+  const auto& driver = restart.doubles("static_driver");
+  time_ = driver.at(0);
+  const auto& origin = restart.doubles("static_origin");
+  for (std::size_t k = 0; k < held_.size(); ++k) held_[k].origin = origin.at(k);
+  Field x = x_;
+  prescribe(time_, x);
+  solver_.evaluate(x, work_);
+  accept(time_, std::move(x));
+  works_ = {driver.at(1), driver.at(2), driver.at(3), driver.at(4)};
+  avalanches_ = static_cast<std::int64_t>(driver.at(5));
+  critical_ = driver.at(6) != 0;
+}
+
+}  // namespace lamella

@@ -1,0 +1,109 @@
+// Fracture at rest: equilibrium under a slowly growing load, and the exact load of every break. Between breaks the load grows as far as the
+// tangent says that the next link holds; then the most loaded link breaks, the load is held while equilibrium is found again, and so on
+// while any link is beyond its criterion (the avalanche). What is released in between, which would become motion and then heat, is booked
+// as such. Time only says where the loads are.
+#pragma once
+#include <functional>
+#include <optional>
+
+#include "simulator/load_path.h"
+#include "simulator/steppers/equilibrium.h"
+
+namespace lamella {
+
+/// [run]: how well, and how.
+struct QuasiStaticSettings {
+  double residual = 1e-4;        // force that may be left, over the largest internal force
+  double load_tolerance = 1e-4;  // of the criterion, at which a link counts as being at it
+  bool all_at_once = false;      // every link beyond its criterion breaks before equilibrium is found again
+  bool follow =
+      false;  // an avalanche is followed by taking the load back to where one link after the other holds no more
+  double longest = 0;  // step in time [s]
+};
+
+/// A break at rest.
+struct BreakAtRest {
+  Break link;
+  std::int64_t avalanche = 0;  // from 0
+  std::int64_t place = 0;      // in it, from 0
+  double time = 0;             // of the stage [s]
+  double released = 0;         // energy that was free to become motion when the sample fell to its next equilibrium [J]
+};
+
+/// Booked since the stepper was made [J].
+struct StaticWorks {
+  double loads = 0, pressure = 0, fracture = 0, released = 0;
+};
+
+class QuasiStatic {
+ public:
+  /// `x`: where the stage starts; held components go from there.
+  QuasiStatic(Model& model, const std::vector<Load>& loads, const LoadPath& path, Field x, double start_time,
+              const QuasiStaticSettings& settings);
+
+  const Field& x() const { return x_; }
+  /// Of the stage [s].
+  double time() const { return time_; }
+
+  /// Finds the first equilibrium, under the loads of the present time. Throws SolverError.
+  void settle();
+  /// One increment of load towards `end`, at most until a link reaches its criterion. Throws SolverError where no equilibrium is found.
+  void load_towards(double end);
+  /// A link is at its criterion: there is a break to come before the load may grow.
+  bool critical() const { return critical_; }
+  /// Breaks links at this load until all that are left hold. `go_on` is asked after each equilibrium.
+  void fall(const std::function<bool()>& go_on);
+
+  /// Breaks since the last call.
+  std::vector<BreakAtRest> take_breaks() { return std::exchange(breaks_, {}); }
+  const StaticWorks& works() const { return works_; }
+  /// What each load exerts on the sample [N], and on each node.
+  std::vector<Vec2> load_forces() const;
+  Field load_force_on_nodes() const;
+  const EquilibriumSolver& solver() const { return solver_; }
+  /// See EquilibriumSolver::forget.
+  void forget() { solver_.forget(); }
+
+  void save(ArraySet& restart) const;
+  void restore(const ArraySet& restart);
+
+ private:
+  struct Held {
+    Index node;
+    int component;
+    std::size_t load;
+    double origin;  // [m]
+  };
+  void prescribe(double time, Field& x);
+  bool try_at(double time, Field& x);
+  void accept(double time, Field x);
+  double potential(const Field& x) const;
+  double criterion(const Field& x);
+  void commit();
+  void book_pressures(double time);
+  void break_link(Index link, std::int64_t place);
+  [[noreturn]] void give_up(const std::string& what, double time) const;
+
+  Model& model_;
+  const std::vector<Load>& loads_;
+  const LoadPath& path_;
+  QuasiStaticSettings settings_;
+  EquilibriumSolver solver_;
+  std::vector<Held> held_;
+  Field x_;
+  Field dead_;                    // of the accepted configuration [N]
+  Eigen::VectorXd work_;          // scratch
+  std::vector<double> reaction_;  // on each of held_, at the accepted configuration [N]
+  LinkForces link_work_;
+  double start_time_ = 0, time_ = 0;
+  double segment_ = 0;         // mean length [m]
+  double potential_ = 0;       // of the accepted configuration: energy less the work of dead forces [J]
+  std::vector<double> lever_;  // of prescribed pressures, at the accepted configuration [J/Pa]
+  bool dissipates_ = false;    // committing history lowers the potential: walls flow, or contacts rub
+  bool critical_ = false;
+  std::int64_t avalanches_ = 0;
+  std::vector<BreakAtRest> breaks_;
+  StaticWorks works_;
+};
+
+}  // namespace lamella

@@ -1,0 +1,76 @@
+#include "simulator/stop_conditions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "generator/sample/errors.h"
+#include "generator/sample/voids.h"
+
+namespace lamella {
+
+StopConditions::StopConditions(const Stage& stage, const Model& model, const std::vector<Load>& loads, const Field& x)
+    : stop_(stage.stop), model_(model), loads_(loads) {
+  if (!stop_.compaction && !stop_.void_ratio) return;
+  const Sample& sample = model.sample;
+  const auto room = room_between_walls(sample, sample.x), now = room_between_walls(sample, points_of(x));
+  if (!room || !now)
+    throw SceneError(fmt::format(
+        "stop.{}: needs closed cells between walls on all four sides: open chains along x and y, such as plates",
+        stop_.compaction ? "compaction" : "void_ratio"));
+  sample_room_ = room->area();
+  history_.loosens = stop_.compaction && compaction(*now) > *stop_.compaction;
+}
+
+std::optional<std::string> StopConditions::reason(const Now& now) {
+  const double magnitude = std::abs(now.stress);
+  history_.peak_stress = std::max(history_.peak_stress, magnitude);
+  if (stop_.time && now.since >= *stop_.time * (1 - 1e-9)) return fmt::format("time {:.4g} s reached", *stop_.time);
+  const bool damaged = now.broken > 0;
+  if (stop_.stress_drop && damaged && magnitude < *stop_.stress_drop * history_.peak_stress)
+    return fmt::format("stress fell below {:.0f} % of its peak {:.4g} Pa", 100 * *stop_.stress_drop,
+                       history_.peak_stress);
+  if (stop_.separated && damaged && separated()) return "separated: no path of shells and intact links joins the grips";
+  if (stop_.at_rest && !now.first && now.unbalanced < *stop_.at_rest)
+    return fmt::format("at rest: relative unbalanced force {:.2g}", now.unbalanced);
+  for (std::size_t l = 0; l < loads_.size(); ++l)
+    if (loads_[l].stop_force && now.load_force[l].norm() > *loads_[l].stop_force)
+      return fmt::format("load '{}' exerts {:.4g} N", loads_[l].name, now.load_force[l].norm());
+  return now.packed;
+}
+
+std::optional<std::string> StopConditions::packed(const Field& field, double time) const {
+  if (!(sample_room_ > 0)) return std::nullopt;
+  const std::vector<Vec2> x = points_of(field);
+  const auto room = room_between_walls(model_.sample, x);
+  if (!room) throw SolverError(fmt::format("t = {:.6g} s: there is no room left between the walls", time));
+  if (const auto& asked = stop_.compaction)
+    if (const double reached = compaction(*room); history_.loosens ? reached <= *asked : reached >= *asked)
+      return fmt::format("compaction {:.4g} reached", reached);
+  if (const auto& asked = stop_.void_ratio)
+    if (const double reached = void_ratio(model_.sample, x, *room); reached < *asked)
+      return fmt::format("void ratio {:.4g} reached", reached);
+  return std::nullopt;
+}
+
+bool StopConditions::separated() const {
+  const Sample& sample = model_.sample;
+  const Pieces pieces = pieces_of(sample, model_.rupture ? &model_.rupture->broken() : nullptr);
+  std::vector<Index> parent(pieces.count);
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](Index node) {
+    Index c = pieces.of_node[node];
+    while (parent[c] != c) c = parent[c] = parent[parent[c]];
+    return c;
+  };
+  if (model_.links)
+    for (std::size_t l = 0; l < sample.links.size(); ++l)
+      if (model_.links->intact(static_cast<Index>(l))) parent[root(sample.links[l].a)] = root(sample.links[l].b);
+  std::vector<std::uint8_t> low(pieces.count, 0);
+  for (Index i : loads_[0].nodes) low[root(i)] = 1;
+  return std::none_of(loads_[1].nodes.begin(), loads_[1].nodes.end(), [&](Index i) { return low[root(i)] != 0; });
+}
+
+}  // namespace lamella
