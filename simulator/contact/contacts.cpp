@@ -142,8 +142,33 @@ bool Contacts::covers(const Field& x) const {
   if (stale_) return false;
   const double most = 0.25 * rules_.skin * rules_.skin;
   for (std::size_t i = 0; i < x.size(); ++i)
-    if (!((x.at(i) - drift_.start().at(i)).squaredNorm() <= most)) return false;
+    if (!((x.at(i) - drift_.start().at(i)).squaredNorm() <= most)) return drift_.relative(sample_, x) <= rules_.skin;
   return true;
+}
+
+// A wall pushes by its unsigned distance, so that one which has jumped to the other side of another is pushed on.
+double Contacts::safe_share(const Field& x, const Field& way) {
+  if (!covers(x)) rebuild(x);
+  double share = 1;
+  for (const Pair& pair : list_.pairs)
+    for (const Index s : list_.of(pair)) {
+      const Index next = sample_.next(pair.cell, s);
+      const Vec2 w = way.at(pair.node);
+      const double relative = std::sqrt(std::max((w - way.at(s)).squaredNorm(), (w - way.at(next)).squaredNorm()));
+      const double distance = std::sqrt(squared_distance(x.at(pair.node), x.at(s), x.at(next)));
+      if (share * relative > 0.5 * distance) share = 0.5 * distance / relative;
+    }
+  // What is not listed is further away than the reach, and what is left of the skin.
+  const double radius = *std::min_element(sample_.radius.begin(), sample_.radius.end());
+  const double free = rules_.skin - std::min(rules_.skin, drift_.relative(sample_, x)) + radius;
+  while (share > 0) {
+    Field part(way.size());
+    for (std::size_t i = 0; i < way.size(); ++i) part.set(i, share * way.at(i));
+    const double relative = drift_.relative_motion(sample_, part);
+    if (relative <= free * (1 + 1e-9)) break;
+    share *= std::isfinite(relative) ? free / relative : 0.5;
+  }
+  return share;
 }
 
 double Contacts::energy(const Field& x) const {

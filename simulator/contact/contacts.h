@@ -51,6 +51,8 @@ class Contacts final : public Term {
   void update_candidates(const Field& x);
   /// Whether the present list holds every pair that can touch at x.
   bool covers(const Field& x) const;
+  /// How much of `way` [m] all nodes can go from x, on straight lines, such that no wall can have passed through another, in (0, 1].
+  double safe_share(const Field& x, const Field& way);
   /// Makes the list of candidates anew, however good the present one.
   void rebuild(const Field& x);
   double skin() const { return 0.5 * rules_.skin; }

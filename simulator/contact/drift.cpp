@@ -55,6 +55,10 @@ Drift::Drift(const Sample& sample, const Field& x, double reach) : start_(x) {
 double Drift::relative(const Sample& sample, const Field& x) const {
   Field moved(x.size());
   for (std::size_t i = 0; i < x.size(); ++i) moved.x[i] = x.x[i] - start_.x[i], moved.y[i] = x.y[i] - start_.y[i];
+  return relative_motion(sample, moved);
+}
+
+double Drift::relative_motion(const Sample& sample, const Field& moved) const {
   const auto boxes = bounding_boxes(sample, moved);
   double most = 0;
   for (const Box& box : boxes) {

@@ -23,6 +23,8 @@ class Drift {
 
   /// No node has moved by more against a node that it may touch than this [m]; infinite where that cannot be told.
   double relative(const Sample& sample, const Field& x) const;
+  /// The same of a motion from anywhere on, as long as neighbours are the same [m].
+  double relative_motion(const Sample& sample, const Field& moved) const;
   const Field& start() const { return start_; }
   std::size_t bytes() const { return 2 * sizeof(double) * start_.size() + sizeof(neighbours_[0]) * neighbours_.size(); }
 

@@ -126,6 +126,8 @@ Eigen::VectorXd EquilibriumSolver::direction(const Eigen::VectorXd& f) {
 }
 
 const Eigen::VectorXd& EquilibriumSolver::response(const Field& x, const Eigen::VectorXd& f) {
+  static const Eigen::VectorXd nothing;
+  if (free_.size() == 0) return nothing;
   if (!factored_) refactor(x);
   ++cost_.solves;
   return factor_.solve(f);
@@ -134,6 +136,7 @@ const Eigen::VectorXd& EquilibriumSolver::response(const Field& x, const Eigen::
 bool EquilibriumSolver::relax(Field& x, double tolerance) {
   ++cost_.searches;
   pairs_.clear();
+  failure_.clear();
   const Field start = x;
   Eigen::VectorXd f, next;
   evaluate(x, f);
@@ -156,6 +159,11 @@ bool EquilibriumSolver::relax(Field& x, double tolerance) {
     }
     const double farthest = step.cwiseAbs().maxCoeff();
     double alpha = std::min(1.0, kFarthest * length_ / farthest);
+    if (model_.contacts) {
+      Field way(x.size());
+      free_.add(step, alpha, way);
+      alpha *= model_.contacts->safe_share(x, way);
+    }
     Field there = x;
     bool found = false;
     for (int halving = 0; halving < kMostHalvings; ++halving) {

@@ -164,6 +164,12 @@ void QuasiStatic::load_towards(double end) {
     // There, and as far back or on as it takes.
     low = 0, z_low = before, high = 0, z_high = 0;
     Field there = predicted(step);
+    if (model_.contacts) {
+      Field way = there;
+      prescribe(time_ + step, way);
+      for (std::size_t i = 0; i < way.size(); ++i) way.set(i, way.at(i) - x_.at(i));
+      if (const double share = model_.contacts->safe_share(x_, way); share < 1) there = predicted(step *= share);
+    }
     for (int tries = 0;; ++tries) {
       if (!try_at(time_ + step, there)) {
         step = low + 0.3 * (step - low);
