@@ -258,7 +258,7 @@ std::string StaticStage::run(TrajectoryWriter& writer, const SimulateOptions& op
       write_frame(writer);
     }
     while (true) {
-      if (stepper_->critical()) {
+      if (stepper_->critical() && !ended) {
         stepper_->fall([&] { return !interrupted(); });
         count();
         add_events(writer);
@@ -266,6 +266,7 @@ std::string StaticStage::run(TrajectoryWriter& writer, const SimulateOptions& op
         ended = add_row(writer, columns, facts);
         report(options);
       }
+      if (!stepper_->over().empty()) ended = stepper_->over();
       const bool at_end = stepper_->time() >= end * (1 - 1e-12);
       if (!ended && at_end) ended = stage_.loading ? fmt::format("strain {:.4g} reached", path_->strain(end)) : "end";
       const double next = end * static_cast<double>(frame_) / static_cast<double>(frames);
@@ -278,6 +279,7 @@ std::string StaticStage::run(TrajectoryWriter& writer, const SimulateOptions& op
       if (ended || interrupted()) break;
       stepper_->load_towards(std::min(end, end * static_cast<double>(frame_) / static_cast<double>(frames)));
       count();
+      if (!stepper_->over().empty()) continue;
       ended = add_row(writer, columns, facts);
       report(options);
     }

@@ -55,9 +55,9 @@ std::optional<std::string> StopConditions::packed(const Field& field, double tim
   return std::nullopt;
 }
 
-bool StopConditions::separated() const {
-  const Sample& sample = model_.sample;
-  const Pieces pieces = pieces_of(sample, model_.rupture ? &model_.rupture->broken() : nullptr);
+std::vector<Index> parts_of(const Model& model) {
+  const Sample& sample = model.sample;
+  const Pieces pieces = pieces_of(sample, model.rupture ? &model.rupture->broken() : nullptr);
   std::vector<Index> parent(pieces.count);
   std::iota(parent.begin(), parent.end(), 0);
   const auto root = [&](Index node) {
@@ -65,12 +65,34 @@ bool StopConditions::separated() const {
     while (parent[c] != c) c = parent[c] = parent[parent[c]];
     return c;
   };
-  if (model_.links)
+  if (model.links)
     for (std::size_t l = 0; l < sample.links.size(); ++l)
-      if (model_.links->intact(static_cast<Index>(l))) parent[root(sample.links[l].a)] = root(sample.links[l].b);
-  std::vector<std::uint8_t> low(pieces.count, 0);
-  for (Index i : loads_[0].nodes) low[root(i)] = 1;
-  return std::none_of(loads_[1].nodes.begin(), loads_[1].nodes.end(), [&](Index i) { return low[root(i)] != 0; });
+      if (model.links->intact(static_cast<Index>(l))) parent[root(sample.links[l].a)] = root(sample.links[l].b);
+  std::vector<Index> part(sample.nodes());
+  for (Index i = 0; i < sample.nodes(); ++i) part[i] = root(i);
+  return part;
+}
+
+bool StopConditions::separated() const {
+  const std::vector<Index> part = parts_of(model_);
+  std::vector<std::uint8_t> low(part.size(), 0);
+  for (Index i : loads_[0].nodes) low[part[i]] = 1;
+  return std::none_of(loads_[1].nodes.begin(), loads_[1].nodes.end(), [&](Index i) { return low[part[i]] != 0; });
+}
+
+std::optional<std::string> unheld_load(const Model& model, const std::vector<Load>& loads) {
+  const std::vector<Index> part = parts_of(model);
+  for (int c = 0; c < 2; ++c) {
+    std::vector<std::uint8_t> held(part.size(), 0);
+    for (const Load& load : loads)
+      if (load.holds[c])
+        for (Index i : load.nodes) held[part[i]] = 1;
+    for (const Load& load : loads)
+      if (load.pushes_along[c])
+        for (std::size_t k = 0; k < load.nodes.size(); ++k)
+          if (load.force[k][c] != 0 && !held[part[load.nodes[k]]]) return load.name;
+  }
+  return std::nullopt;
 }
 
 }  // namespace lamella

@@ -10,6 +10,13 @@
 
 namespace lamella {
 
+/// Parts of the sample that shells and intact links hold together: a number for each node, the same within a part.
+std::vector<Index> parts_of(const Model& model);
+
+/// The name of a load whose force acts, along x or y, on a part of which no node is held in that direction, if there is one: such a part
+/// can come to rest nowhere, unless contact stops it.
+std::optional<std::string> unheld_load(const Model& model, const std::vector<Load>& loads);
+
 class StopConditions {
  public:
   /// `x`: where the stage starts. Throws SceneError where a condition needs walls that the sample does not have. All but `loads`' forces

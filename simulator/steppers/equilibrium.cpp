@@ -4,6 +4,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace lamella {
@@ -13,6 +14,9 @@ constexpr int kMostIterations = 400, kMostHalvings = 30;
 constexpr std::size_t kPairs = 12;  // of limited-memory BFGS
 // A factor is made anew where the rate of convergence so far asks for more iterations than this.
 constexpr double kPatience = 20;
+// When, and for how long, Newton's method is tried with whole steps.
+constexpr std::array<int, 3> kRushes = {25, 100, 250};
+constexpr int kRushIterations = 25;
 // Over the largest diagonal. Loose fragments make the stiffness singular; this keeps it regular, and moves nothing: the forces say when
 // equilibrium is reached.
 constexpr double kLeastShift = 1e-12, kMostShift = 1;
@@ -133,6 +137,36 @@ const Eigen::VectorXd& EquilibriumSolver::response(const Field& x, const Eigen::
   return factor_.solve(f);
 }
 
+double EquilibriumSolver::allowed_share(const Field& x, const Eigen::VectorXd& step) {
+  const double share = std::min(1.0, kFarthest * length_ / step.cwiseAbs().maxCoeff());
+  if (!model_.contacts) return share;
+  Field way(x.size());
+  free_.add(step, share, way);
+  return share * model_.contacts->safe_share(x, way);
+}
+
+// Newton's method as it stands in books: a new tangent and a whole step each time, uphill too. Where something is stiff (a core that keeps its
+// area, walls that keep their length while they turn far) every straight step strains it, and a search that may only go downhill creeps;
+// here the next step takes that strain back.
+bool EquilibriumSolver::rush(Field& x, double tolerance) {
+  Eigen::VectorXd f;
+  evaluate(x, f);
+  for (int iteration = 0; iteration < kRushIterations; ++iteration) {
+    if (!std::isfinite(measure(f))) return false;
+    const bool there = residual_ <= tolerance;
+    refactor(x);
+    if (!factored_) return false;
+    // A minimum, and not just any rest.
+    if (there) return shift_ <= kLeastShift;
+    ++cost_.iterations, ++cost_.solves;
+    const Eigen::VectorXd step = factor_.solve(f);
+    if (!step.allFinite()) return false;
+    free_.add(step, allowed_share(x, step), x);
+    evaluate(x, f);
+  }
+  return false;
+}
+
 bool EquilibriumSolver::relax(Field& x, double tolerance) {
   ++cost_.searches;
   pairs_.clear();
@@ -145,6 +179,16 @@ bool EquilibriumSolver::relax(Field& x, double tolerance) {
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
     if (!std::isfinite(residual_)) break;
     if (residual_ <= tolerance) return true;
+    if (std::find(kRushes.begin(), kRushes.end(), iteration) != kRushes.end()) {
+      Field rushed = x;
+      if (rush(rushed, tolerance)) {
+        x = std::move(rushed);
+        return true;
+      }
+      factored_ = false;
+      evaluate(x, f);
+      measure(f);
+    }
     ++cost_.iterations;
     if (!factored_) {
       refactor(x), since_factor = 0, first = before;
@@ -157,13 +201,7 @@ bool EquilibriumSolver::relax(Field& x, double tolerance) {
       step = direction(f);
       slope = step.dot(f);
     }
-    const double farthest = step.cwiseAbs().maxCoeff();
-    double alpha = std::min(1.0, kFarthest * length_ / farthest);
-    if (model_.contacts) {
-      Field way(x.size());
-      free_.add(step, alpha, way);
-      alpha *= model_.contacts->safe_share(x, way);
-    }
+    double alpha = allowed_share(x, step);
     Field there = x;
     bool found = false;
     for (int halving = 0; halving < kMostHalvings; ++halving) {
@@ -209,7 +247,7 @@ bool EquilibriumSolver::relax(Field& x, double tolerance) {
   }
   if (residual_ <= tolerance) return true;
   if (failure_.empty()) failure_ = fmt::format("no convergence in {} iterations", kMostIterations);
-  x = start;
+  reached_ = std::exchange(x, start);
   return false;
 }
 

@@ -27,6 +27,8 @@ class EquilibriumSolver {
   /// Moves the free components of x to rest. Converged: the largest force that is left is below `tolerance` times the largest internal
   /// force. Returns whether it is; if not, x is as it was.
   bool relax(Field& x, double tolerance);
+  /// How far the last search has come, if it has failed.
+  const Field& reached() const { return reached_; }
   /// At the end of the last search: the largest force that is left over the largest internal force; the node that has it.
   double residual() const { return residual_; }
   Index worst_node() const { return worst_node_; }
@@ -51,6 +53,8 @@ class EquilibriumSolver {
 
  private:
   void refactor(const Field& x);
+  bool rush(Field& x, double tolerance);
+  double allowed_share(const Field& x, const Eigen::VectorXd& step);
   void add_anchors(const StiffnessMatrix& k, const FreeComponents& free, std::vector<double>& values) const;
   Eigen::VectorXd direction(const Eigen::VectorXd& f);
   void follow_contacts(const Field& x);
@@ -66,6 +70,7 @@ class EquilibriumSolver {
   Field dead_, anchor_, f_;
   std::vector<double> anchor_stiffness_;
   bool analyzed_ = false, factored_ = false;
+  Field reached_;
   Field factor_x_;  // where the factor was made
   std::vector<double> factored_values_;
   double shift_ = 0;  // of the last factor, over the largest diagonal

@@ -54,6 +54,9 @@ class QuasiStatic {
   /// Breaks links at this load until all that are left hold. `go_on` is asked after each equilibrium.
   void fall(const std::function<bool()>& go_on);
 
+  /// Why the stage is over although it has not come to its end: nothing holds a load any more. Empty: it is not.
+  const std::string& over() const { return over_; }
+
   /// Breaks since the last call.
   std::vector<BreakAtRest> take_breaks() { return std::exchange(breaks_, {}); }
   const StaticWorks& works() const { return works_; }
@@ -82,7 +85,7 @@ class QuasiStatic {
   void commit();
   void book_pressures(double time);
   void break_link(Index link, std::int64_t place);
-  [[noreturn]] void give_up(const std::string& what, double time) const;
+  void give_up(const std::string& what, double time);
 
   Model& model_;
   const std::vector<Load>& loads_;
@@ -100,6 +103,7 @@ class QuasiStatic {
   double potential_ = 0;       // of the accepted configuration: energy less the work of dead forces [J]
   std::vector<double> lever_;  // of prescribed pressures, at the accepted configuration [J/Pa]
   bool dissipates_ = false;    // committing history lowers the potential: walls flow, or contacts rub
+  std::string over_;
   bool critical_ = false;
   std::int64_t avalanches_ = 0;
   std::vector<BreakAtRest> breaks_;
