@@ -49,13 +49,16 @@ std::string response_csv(const Response& response) {
 
 std::string events_csv(const std::vector<Event>& events, Breaks breaks) {
   const bool bars = breaks == Breaks::kLinksAndBars;
+  const bool at_rest = std::any_of(events.begin(), events.end(), [](const Event& e) { return e.avalanche >= 0; });
   std::string text = fmt::format(
-      "time [s],step [1],stage [1],strain [1],link [1],x [m],y [m],f_n [N],f_t [N],mode_mix [rad],energy [J]{}\n",
-      bars ? ",bar [1]" : "");
+      "time [s],step [1],stage [1],strain [1],link [1],x [m],y [m],f_n [N],f_t [N],mode_mix [rad],energy [J]{}{}\n",
+      bars ? ",bar [1]" : "", at_rest ? ",avalanche [1],place [1],released [J]" : "");
   for (const Event& e : events) {
     text += fmt::format("{:.10g},{},{},{:.10g},{},{:.10g},{:.10g},{:.10g},{:.10g},{:.6g},{:.10g}", e.time, e.step,
                         e.stage, e.strain, e.link, e.position.x(), e.position.y(), e.f_n, e.f_t, e.mode_mix, e.energy);
-    text += bars ? fmt::format(",{}\n", e.bar) : "\n";
+    if (bars) text += fmt::format(",{}", e.bar);
+    if (at_rest) text += fmt::format(",{},{},{:.10g}", e.avalanche, e.place, e.released);
+    text += "\n";
   }
   return text;
 }

@@ -138,19 +138,23 @@ bool QuasiStatic::try_at(double time, Field& x) {
   return solver_.relax(x, settings_.residual);
 }
 
+/// Motion of the free components to first order, from the force that a small part of this increment of time leaves.
+Eigen::VectorXd QuasiStatic::first_motion(double increment) {
+  double farthest = 0;
+  for (const Load& load : loads_)
+    farthest = std::max(farthest, (path_.way(load, time_ + increment) - path_.way(load, time_)).norm());
+  const double probe = std::min(1.0, farthest > 0 ? kProbe * segment_ / farthest : 1e-3);
+  Field moved = x_;
+  prescribe(time_ + probe * increment, moved);
+  solver_.evaluate(moved, work_);
+  return solver_.response(x_, work_) / probe;
+}
+
 void QuasiStatic::load_towards(double end) {
   const double target = end - time_ < 1.001 * settings_.longest ? end : time_ + settings_.longest;
   while (time_ < target && !critical_) {
     const double h = target - time_;
-    // The first-order motion, from the force that a small part of this increment leaves.
-    double farthest = 0;
-    for (const Load& load : loads_)
-      farthest = std::max(farthest, (path_.way(load, time_ + h) - path_.way(load, time_)).norm());
-    const double probe = std::min(1.0, farthest > 0 ? kProbe * segment_ / farthest : 1e-3);
-    Field moved = x_;
-    prescribe(time_ + probe * h, moved);
-    solver_.evaluate(moved, work_);
-    const Eigen::VectorXd motion = solver_.response(x_, work_) / probe;
+    const Eigen::VectorXd motion = first_motion(h);
     const auto predicted = [&](double step) {
       Field x = x_;
       solver_.free().add(motion, step / h, x);
@@ -203,6 +207,34 @@ void QuasiStatic::load_towards(double end) {
   }
 }
 
+// From a link beyond its criterion back to where the most loaded one is at it.
+void QuasiStatic::take_back() {
+  double beyond = criterion(x_);
+  while (beyond > settings_.load_tolerance && time_ > 0) {
+    const double h = -std::min(time_, settings_.longest);
+    const Eigen::VectorXd motion = first_motion(h);
+    double step = h, low = 0, z_low = beyond;  // low: where a link is still beyond
+    Field there;
+    for (int tries = 0;; ++tries) {
+      there = x_;
+      solver_.free().add(motion, step / h, there);
+      const bool found = try_at(time_ + step, there);
+      const double z = found ? criterion(there) : 1.0;
+      if (tries > kMostTries) return give_up("no equilibrium under a little less load", time_ + step);
+      if (!found) {
+        step *= 0.3;
+      } else if (z < -settings_.load_tolerance) {  // too far
+        step = low + std::clamp(z_low / (z_low - z), 0.05, 0.95) * (step - low);
+      } else {
+        beyond = z;
+        break;
+      }
+    }
+    accept(time_ + step, std::move(there));
+    commit();
+  }
+}
+
 void QuasiStatic::break_link(Index link, std::int64_t place) {
   CohesiveLinks& links = *model_.links;
   Contacts* const contacts = model_.contacts.get();
@@ -250,6 +282,10 @@ void QuasiStatic::fall(const std::function<bool()>& go_on) {
     commit();
     if (dissipates_) potential_ = potential(x_);
     critical_ = criterion(x_) > 0;
+    if (settings_.follow) {
+      if (critical_) take_back();
+      break;
+    }
   }
   ++avalanches_;
 }

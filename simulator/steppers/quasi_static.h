@@ -51,7 +51,8 @@ class QuasiStatic {
   void load_towards(double end);
   /// A link is at its criterion: there is a break to come before the load may grow.
   bool critical() const { return critical_; }
-  /// Breaks links at this load until all that are left hold. `go_on` is asked after each equilibrium.
+  /// Breaks links at this load until all that are left hold. `go_on` is asked after each equilibrium. Where the settings say `follow`:
+  /// breaks one, and takes the load back to where the next is at its criterion.
   void fall(const std::function<bool()>& go_on);
 
   /// Why the stage is over although it has not come to its end: nothing holds a load any more. Empty: it is not.
@@ -77,6 +78,8 @@ class QuasiStatic {
     std::size_t load;
     double origin;  // [m]
   };
+  Eigen::VectorXd first_motion(double increment);
+  void take_back();
   void prescribe(double time, Field& x);
   bool try_at(double time, Field& x);
   void accept(double time, Field x);
