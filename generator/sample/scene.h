@@ -144,6 +144,11 @@ struct LinkScene {
   std::optional<double> normal_strength;      // |f_n0|; absent: never breaks
   std::optional<double> tangential_strength;  // f_t0
   double exponent = 2;                        // alpha
+  std::string law = "brittle";                // brittle | cohesive_zone, with what follows
+  std::optional<double> toughness;            // G_I: per length J/m, per link J
+  std::optional<double> shear_toughness;      // G_II; absent: G_I
+  std::string mixing = "benzeggagh_kenane";   // benzeggagh_kenane | power
+  std::optional<double> mixing_exponent;      // eta; absent: 2, power: 1
   int line = 0;
 };
 
