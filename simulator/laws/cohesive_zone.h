@@ -2,7 +2,7 @@
 // energy norm, irreversibly. Pure functions of the openings d_n, d_t and of the history; nothing here knows nodes.
 //
 //   s = sqrt(k_n <d_n>^2 + k_t d_t^2)      [J^1/2]; <d_n> = max(d_n, 0): what is pressed keeps its full k_n and is no part of s
-//   sigma(s) = s up to s0,      s0 (s_f - s) / (s_f - s0) up to s_f = 2 G_c / s0,      0 beyond;      (1 - D) = sigma(s_max) / s_max
+//   sigma(s) = s up to s0,      s0 (s_f - s) / (s_f - s0) up to s_f = 2 G_c / s0,      0 beyond;      (1 - d) = sigma(s_max) / s_max
 //
 // s0, and with it the mode mix B = k_t d_t^2 / s^2, is taken where damage begins and kept: from then on all depends on s alone, and the
 // force is the gradient of a potential. A mix that followed the opening would have none.
@@ -44,7 +44,7 @@ struct ZoneResponse {
   double stored = 0;                    // [J]
   double f_n = 0, f_t = 0;              // its derivatives with respect to d_n and d_t [N]
   double k_nn = 0, k_nt = 0, k_tt = 0;  // its second derivatives [N/m]
-  double damage = 0;                    // D once committed
+  double damage = 0;                    // d once committed
   bool advances = false;                // a commit would change the history
 };
 
@@ -146,7 +146,7 @@ inline ZoneHistory advanced(const ZoneLink& p, ZoneHistory h, double d_n, double
 inline ZoneResponse zone_response(const ZoneLink& p, const ZoneHistory& h, double d_n, double d_t) {
   ZoneResponse r;
   const bool pressed = !(d_n > 0);
-  const auto elastic = [&](double intact) {  // `intact`: 1 - D
+  const auto elastic = [&](double intact) {  // `intact`: 1 - d
     r.k_nn = pressed ? p.k_n : intact * p.k_n, r.k_tt = intact * p.k_t;
     r.f_n = r.k_nn * d_n, r.f_t = r.k_tt * d_t;
     r.stored = r.potential = 0.5 * r.f_n * d_n + 0.5 * r.f_t * d_t;
