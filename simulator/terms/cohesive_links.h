@@ -100,6 +100,9 @@ class CohesiveLinks final : public Term {
   /// What damage has dissipated in intact links up to the last commit [J]; of all of them, or of one.
   double dissipated() const;
   double dissipated(Index link) const { return softens() ? zone_dissipated(zone_[link]) : 0.0; }
+  /// Length over which links like this one soften ahead of a crack in opening between walls of this bending rigidity [m], roughly; 0 where
+  /// it is brittle.
+  double zone_length(Index link, double bending) const;
   /// The stiffness as it would be without damage: how stiff a link can become again, by closing or unloading.
   void add_undamaged_stiffness(const Field& x, StiffnessSink& sink) const;
   bool intact(Index link) const { return intact_[link] != 0; }

@@ -63,6 +63,14 @@ double CohesiveLinks::dissipated() const {
   return sum;
 }
 
+// Beams whose ends are pulled by f per length over the length z, open by f z^4 / EI there: by G / f at the end of the zone.
+double CohesiveLinks::zone_length(Index l, double bending) const {
+  if (!softens()) return 0;
+  const double length = sample_.links[l].length;
+  const double toughness = p_.normal_toughness[l] / length, strength = p_.normal_strength[l] / length;
+  return std::pow(bending * toughness / (strength * strength), 0.25);
+}
+
 void CohesiveLinks::add_undamaged_stiffness(const Field& x, StiffnessSink& sink) const {
   for (Index l = 0; l < static_cast<Index>(sample_.links.size()); ++l) {
     if (!intact_[l]) continue;

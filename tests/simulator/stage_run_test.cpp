@@ -101,6 +101,29 @@ TEST(StageRun, a_run_under_a_prescribed_pressure_resumes_to_the_same_bits) {
             resumed.frame(resumed.frames() - 1).arrays.doubles("x"));
 }
 
+TEST(StageRun, says_over_how_many_spacings_links_soften_and_when_those_are_too_few) {
+  // EI = 1, f = 1 N/m, spacing 1/4: G = 1 J/m makes (EI G / f^2)^(1/4) = 1 m, G = 0.04 about 0.45 m.
+  Scene scene = inflated(0.5);
+  scene.stages[0].cells["cells"].core.reset();
+  LinkScene& links = scene.stages[0].links["links"];
+  links.law = "cohesive_zone";
+  links.normal_stiffness = links.tangential_stiffness = 100;
+  links.normal_strength = links.tangential_strength = 1;
+  for (const auto& [toughness, spacings, enough] :
+       {std::tuple{1.0, "4 spacings", true}, {0.04, "1.79 spacings", false}}) {
+    links.toughness = toughness;
+    const auto lines = start_up_summary(two_bonded_squares(4), scene);
+    const auto line =
+        std::find_if(lines.begin(), lines.end(), [](const std::string& l) { return l.find("soften") != l.npos; });
+    ASSERT_NE(line, lines.end());
+    EXPECT_NE(line->find(spacings), std::string::npos) << *line;
+    EXPECT_EQ(line->find("fewer than 2") == std::string::npos, enough) << *line;
+  }
+  links.law = "brittle";
+  for (const std::string& line : start_up_summary(two_bonded_squares(4), scene))
+    EXPECT_EQ(line.find("soften"), std::string::npos) << line;
+}
+
 /// Two squares whose links soften, pulled apart in two stages: the first leaves them damaged.
 Scene torn() {
   return parse_scene(R"(
@@ -164,6 +187,11 @@ TEST(StageRun, links_that_soften_resume_to_the_same_bits_and_keep_their_damage_f
     const ArraySet last = whole.frame(whole.frames() - 1).arrays;
     for (const char* name : {"x", "link_damage", "link_zeta", "link_energy"})
       EXPECT_EQ(last.doubles(name), resumed.frame(resumed.frames() - 1).arrays.doubles(name)) << name;
+    ASSERT_EQ(whole.events().size(), resumed.events().size());
+    for (std::size_t e = 0; e < whole.events().size(); ++e) {
+      EXPECT_EQ(whole.events()[e].energy, resumed.events()[e].energy);
+      EXPECT_EQ(whole.events()[e].mode_mix, resumed.events()[e].mode_mix);
+    }
   }
 
   const auto stage = column(whole, "stage"), fracture = column(whole, "fracture");
