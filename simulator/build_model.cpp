@@ -227,9 +227,7 @@ WallStrength wall_strength(const Sample& sample, const std::vector<const CellSce
   return strength;
 }
 
-}  // namespace
-
-std::unique_ptr<Model> build_model(const Sample& sample, const Stage& stage, const Field& x) {
+std::unique_ptr<Model> assemble(const Sample& sample, const Stage& stage, const Field& x) {
   auto model = std::make_unique<Model>(sample);
   const auto section = cell_sections(sample, stage);
   const auto tributary = tributary_lengths(sample);
@@ -266,6 +264,19 @@ std::unique_ptr<Model> build_model(const Sample& sample, const Stage& stage, con
   const WallStrength strength = wall_strength(sample, section);
   if (!strength.force.empty() || !strength.strain.empty()) model->add_rupture(strength);
   return model;
+}
+
+}  // namespace
+
+std::unique_ptr<Model> build_model(const Sample& sample, const Stage& stage, const Field& x) {
+  try {
+    return assemble(sample, stage, x);
+  } catch (const SceneError& error) {  // "line N: ..." of the sections' own sources
+    std::vector<std::string> faults = error.faults();
+    for (std::string& fault : faults)
+      if (!stage.file.empty() && fault.starts_with("line ")) fault = stage.file + ":" + fault.substr(5);
+    throw SceneError(std::move(faults));
+  }
 }
 
 void Model::add_rupture(const WallStrength& strength) {

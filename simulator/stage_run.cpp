@@ -55,18 +55,6 @@ double interpolated(const std::vector<Vec2>& points, double t) {
   return points.back().y();
 }
 
-/// Faults that say "line N: ..." get the scene's file before the number.
-std::unique_ptr<Model> model_of(const Sample& sample, const Scene& scene, const Stage& stage, const Field& x) {
-  try {
-    return build_model(sample, stage, x);
-  } catch (const SceneError& error) {
-    std::vector<std::string> faults = error.faults();
-    for (std::string& fault : faults)
-      if (fault.starts_with("line ")) fault = scene.path.string() + ":" + fault.substr(5);
-    throw SceneError(std::move(faults));
-  }
-}
-
 }  // namespace
 
 StageRun::StageRun(const Sample& sample, const Scene& scene, int stage, const ArraySet& start, Start how)
@@ -82,7 +70,7 @@ StageRun::StageRun(const Sample& sample, const Scene& scene, int stage, const Ar
   } else {
     for (std::size_t i = 0; i < nodes; ++i) state_.x.set(i, sample.x[i]);
   }
-  model_ = model_of(sample, scene, stage_, state_.x);
+  model_ = build_model(sample, stage_, state_.x);
   loads_ = build_loads(sample, stage_);
   load_columns_ = load_columns(loads_);
   gauge_ = measure_gauge(sample, stage_, loads_);

@@ -249,6 +249,7 @@ struct OutputScene {
 struct Stage {
   std::string name = "run";
   std::string from;                        // stage it continues; "" the previous one
+  std::string file;                        // the scene's, for messages
   std::map<std::string, CellScene> cells;  // by group; "cells" is the [cells] section itself
   std::map<std::string, LinkScene> links;  // by group; "links" is the [links] section itself; empty: no links at all
   std::optional<ContactScene> contact;
