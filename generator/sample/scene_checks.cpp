@@ -170,8 +170,7 @@ void check_link(const Value& table, const std::string& path, Faults& faults) {
     require(table, path, "toughness", "a cohesive zone ends with it; give it in J/m (J per link)", faults);
     return;
   }
-  // A group may say that its own links are brittle, beside a main section whose toughness it inherits.
-  if (law && path != "links") return;
+  if (law) return;  // who says "brittle" beside a toughness compares the two, or means one group of links
   for (const char* key : {"toughness", "shear_toughness", "mixing", "mixing_exponent"})
     if (has(table, key))
       add_at(table, path, key, "is used with law = \"cohesive_zone\" only; give that law, or leave this out", faults);
