@@ -116,9 +116,8 @@ void check_toughness(const LinkScene& scene, const ZoneLink& unit) {
   const char *energy = scene.per == "length" ? "J/m" : "J", *force = scene.per == "length" ? "N/m" : "N";
   throw SceneError(fmt::format(
       "line {}: links.toughness: {:.4g} {} is too little: links store up to {:.4g} times their toughness before they "
-      "begin "
-      "to soften; give at least toughness = {:.4g} {} and shear_toughness = {:.4g} {}, or at most normal_strength = "
-      "{:.4g} {} and tangential_strength = {:.4g} {}, or stiffer links",
+      "begin to soften; give at least toughness = {:.4g} {} and shear_toughness = {:.4g} {}, or at most "
+      "normal_strength = {:.4g} {} and tangential_strength = {:.4g} {}, or stiffer links",
       scene.line, unit.toughness_n, energy, ratio, more * unit.toughness_n, energy, more * unit.toughness_t, energy,
       less * unit.strength_n, force, less * unit.strength_t, force));
 }

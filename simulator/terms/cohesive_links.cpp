@@ -398,7 +398,7 @@ void CohesiveLinks::restore(const ArraySet& restart) {
 
 void CohesiveLinks::add_output(const Field& x, ArraySet& frame) const {
   const std::size_t n = sample_.links.size();
-  std::vector<double> force(2 * n), energy(n), zeta(breakable() ? n : 0), damage(softens() ? n : 0);
+  std::vector<double> force(2 * n), energy(n), zeta(breakable() ? n : 0), damage(softens() ? n : 0, 1.0);
   for (Index l = 0; l < static_cast<Index>(n); ++l) {
     if (!intact_[l]) continue;
     const State s = state(x, l);

@@ -123,6 +123,11 @@ TEST(SofteningLinks, what_damage_dissipates_is_no_longer_stored) {
   // sigma: onset at 0.02, end at 2 * 0.004 / 0.08 = 0.1; force 0.08 (0.1 - 0.04) / 0.08
   for (int l = 0; l < 4; ++l) EXPECT_NEAR(frame.doubles("link_force")[2 * l], 0.06, 1e-12);
   for (const double d : frame.doubles("link_damage")) EXPECT_NEAR(d, 1 - 0.06 / 0.16, 1e-12);
+  for (Index i = s.cell_begin[1]; i < s.nodes(); ++i) x.y[i] += 1;
+  links.commit(x);
+  ArraySet gone;
+  links.add_output(x, gone);
+  for (const double d : gone.doubles("link_damage")) EXPECT_EQ(d, 1);
 }
 
 TEST(SofteningLinks, a_link_without_toughness_breaks_as_a_brittle_one) {
