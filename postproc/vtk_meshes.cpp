@@ -167,6 +167,8 @@ Mesh links_mesh(const FrameView& view) {
   if (const std::vector<double>* energy = view.doubles("link_energy"))
     add_array(mesh.cell_data, "energy", single(*energy));
   if (const std::vector<double>* zeta = view.doubles("link_zeta")) add_array(mesh.cell_data, "zeta", single(*zeta));
+  if (const std::vector<double>* damage = view.doubles("link_damage"))
+    add_array(mesh.cell_data, "damage", single(*damage));
   if (const std::vector<double>* time = view.doubles("link_break_time"))
     add_array(mesh.cell_data, "break_time", single(*time));
   return mesh;

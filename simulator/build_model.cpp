@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -94,15 +95,63 @@ const LinkScene& link_section(const Stage& stage, const std::string& a, const st
   return stage.links.at("links");
 }
 
+/// The law of a unit link (of length 1, or one link) of this section.
+ZoneLink zone_of(const LinkScene& scene, const LinkParameters& p) {
+  return {.k_n = scene.normal_stiffness,
+          .k_t = scene.tangential_stiffness,
+          .strength_n = *scene.normal_strength,
+          .strength_t = scene.tangential_strength.value_or(*scene.normal_strength),
+          .alpha = p.exponent,
+          .toughness_n = *scene.toughness,
+          .toughness_t = scene.shear_toughness.value_or(*scene.toughness),
+          .mixing = p.mixing,
+          .mixing_exponent = p.mixing_exponent};
+}
+
+/// Links that store more, when they reach their criterion, than they may dissipate, cannot soften.
+void check_toughness(const LinkScene& scene, const ZoneLink& unit) {
+  const double ratio = brittleness(unit);
+  if (ratio < 1) return;
+  const double more = 1.001 * ratio, less = 0.999 / std::sqrt(ratio);
+  const char *energy = scene.per == "length" ? "J/m" : "J", *force = scene.per == "length" ? "N/m" : "N";
+  throw SceneError(fmt::format(
+      "line {}: links.toughness: {:.4g} {} is too little: links store up to {:.4g} times their toughness before they "
+      "begin to soften; give at least toughness = {:.4g} {} and shear_toughness = {:.4g} {}, or at most "
+      "normal_strength = {:.4g} {} and tangential_strength = {:.4g} {}, or stiffer links",
+      scene.line, unit.toughness_n, energy, ratio, more * unit.toughness_n, energy, more * unit.toughness_t, energy,
+      less * unit.strength_n, force, less * unit.strength_t, force));
+}
+
+/// Toughnesses of all links; 0 where they are brittle.
+void add_toughness(LinkParameters& p, const Sample& s, const std::vector<const LinkScene*>& section) {
+  std::set<const LinkScene*> checked;
+  for (std::size_t l = 0; l < s.links.size(); ++l) {
+    const LinkScene& scene = *section[l];
+    double opening = 0, shear = 0;
+    if (scene.law == "cohesive_zone") {
+      const ZoneLink unit = zone_of(scene, p);
+      if (checked.insert(&scene).second) check_toughness(scene, unit);
+      const double share = scene.per == "length" ? s.links[l].length : 1.0;
+      opening = share * unit.toughness_n, shear = share * unit.toughness_t;
+    }
+    p.normal_toughness.push_back(opening), p.tangential_toughness.push_back(shear);
+  }
+}
+
 void add_links(Model& model, const Stage& stage) {
   const Sample& s = model.sample;
   const auto cell_of = cell_of_node(s);
   LinkParameters p;
-  p.exponent = stage.links.at("links").exponent;
+  const LinkScene& main = stage.links.at("links");
+  p.exponent = main.exponent;
+  p.mixing = main.mixing == "power" ? ModeMixing::kPower : ModeMixing::kBenzeggaghKenane;
+  p.mixing_exponent = main.mixing_exponent.value_or(p.mixing == ModeMixing::kPower ? 1 : 2);
+  std::vector<const LinkScene*> section;
   std::set<bool> breakable;
   for (const Link& link : s.links) {
     const LinkScene& scene =
         link_section(stage, s.group_names[s.group[cell_of[link.a]]], s.group_names[s.group[cell_of[link.b]]]);
+    section.push_back(&scene);
     const bool per_length = scene.per == "length";
     const double share = per_length ? link.length : 1.0, full = per_length ? link.spacing : 1.0;
     p.normal_stiffness.push_back(share * scene.normal_stiffness);
@@ -117,6 +166,8 @@ void add_links(Model& model, const Stage& stage) {
     throw SceneError(
         "links: some groups have strengths and others none; give every [links] section a normal_strength, "
         "as large as it takes where links should not break");
+  if (std::any_of(section.begin(), section.end(), [](const LinkScene* l) { return l->law == "cohesive_zone"; }))
+    add_toughness(p, s, section);
   if (stage.contact) {
     p.contact_after = true;
     p.friction = stage.contact->friction;
@@ -175,9 +226,7 @@ WallStrength wall_strength(const Sample& sample, const std::vector<const CellSce
   return strength;
 }
 
-}  // namespace
-
-std::unique_ptr<Model> build_model(const Sample& sample, const Stage& stage, const Field& x) {
+std::unique_ptr<Model> assemble(const Sample& sample, const Stage& stage, const Field& x) {
   auto model = std::make_unique<Model>(sample);
   const auto section = cell_sections(sample, stage);
   const auto tributary = tributary_lengths(sample);
@@ -216,6 +265,8 @@ std::unique_ptr<Model> build_model(const Sample& sample, const Stage& stage, con
   return model;
 }
 
+}  // namespace
+
 double PressureHistory::at(double time) const {
   if (time <= points->front().x()) return points->front().y();
   for (std::size_t k = 1; k < points->size(); ++k)
@@ -224,6 +275,17 @@ double PressureHistory::at(double time) const {
       return (1 - u) * before.y() + u * after.y();
     }
   return points->back().y();
+}
+
+std::unique_ptr<Model> build_model(const Sample& sample, const Stage& stage, const Field& x) {
+  try {
+    return assemble(sample, stage, x);
+  } catch (const SceneError& error) {  // "line N: ..." of the sections' own sources
+    std::vector<std::string> faults = error.faults();
+    for (std::string& fault : faults)
+      if (!stage.file.empty() && fault.starts_with("line ")) fault = stage.file + ":" + fault.substr(5);
+    throw SceneError(std::move(faults));
+  }
 }
 
 void Model::add_rupture(const WallStrength& strength) {

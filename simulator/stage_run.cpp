@@ -170,6 +170,10 @@ std::vector<std::string> StageRun::summary() const {
             fmt::format("  links against walls: k_n l^2 / k_b = {:.3g}, k_n l / EA = {:.3g}, gap / thickness = {:.3g}",
                         k * l * l / k_b, k * l / cell.axial(),
                         sample_.links.empty() ? 0.0 : sample_.links[0].offset_n / (2 * sample_.radius[c])));
+        if (const double zone = model_->links->zone_length(0, cell.bending()) / sample_.links[0].spacing; zone > 0)
+          lines.push_back(fmt::format(
+              "  links soften over about (EI G / f^2)^(1/4) = {:.3g} spacings ahead of a crack{}", zone,
+              zone < 2 ? ": fewer than 2, so that results depend on the spacing (docs/model.md, section 5)" : ""));
       }
     }
     break;

@@ -152,7 +152,7 @@ std::optional<std::string> StaticStage::add_row(TrajectoryWriter& writer, const 
   }
   if (!std::isfinite(energy))
     throw SolverError(fmt::format("t = {:.6g} s: the elastic energy is no longer a number", time));
-  const StaticWorks& works = stepper_->works();
+  const StaticWorks works = stepper_->works();
   const double friction = model_->friction > 0 ? model_->contacts->friction_dissipated() : 0.0, flow = plastic();
   const double in = works.loads + works.pressure, out = energy + friction + flow + works.fracture + works.released;
   if (base_.empty()) base_ = {in, out};
@@ -279,6 +279,7 @@ std::string StaticStage::run(TrajectoryWriter& writer, const SimulateOptions& op
       if (ended || interrupted()) break;
       stepper_->load_towards(std::min(end, end * static_cast<double>(frame_) / static_cast<double>(frames)));
       count();
+      add_events(writer);
       if (!stepper_->over().empty()) continue;
       ended = add_row(writer, columns, facts);
       report(options);

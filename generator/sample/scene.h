@@ -144,6 +144,11 @@ struct LinkScene {
   std::optional<double> normal_strength;      // |f_n0|; absent: never breaks
   std::optional<double> tangential_strength;  // f_t0
   double exponent = 2;                        // alpha
+  std::string law = "brittle";                // brittle | cohesive_zone, with what follows
+  std::optional<double> toughness;            // G_I: per length J/m, per link J
+  std::optional<double> shear_toughness;      // G_II; absent: G_I
+  std::string mixing = "benzeggagh_kenane";   // benzeggagh_kenane | power
+  std::optional<double> mixing_exponent;      // eta; absent: 2, power: 1
   int line = 0;
 };
 
@@ -250,6 +255,7 @@ struct OutputScene {
 struct Stage {
   std::string name = "run";
   std::string from;                        // stage it continues; "" the previous one
+  std::string file;                        // the scene's, for messages
   std::map<std::string, CellScene> cells;  // by group; "cells" is the [cells] section itself
   std::map<std::string, LinkScene> links;  // by group; "links" is the [links] section itself; empty: no links at all
   std::optional<ContactScene> contact;

@@ -164,6 +164,16 @@ void check_link(const Value& table, const std::string& path, Faults& faults) {
        {std::pair{"normal_strength", "tangential_strength"}, {"tangential_strength", "normal_strength"}})
     if (has(table, given))
       require(table, path, other, fmt::format("strengths come together; {} is given", given), faults);
+  const Value* law = table.find("law");
+  if (law && law->text == "cohesive_zone") {
+    require(table, path, "normal_strength", "a cohesive zone softens from a strength on; give both strengths", faults);
+    require(table, path, "toughness", "a cohesive zone ends with it; give it in J/m (J per link)", faults);
+    return;
+  }
+  if (law) return;  // who says "brittle" beside a toughness compares the two, or means one group of links
+  for (const char* key : {"toughness", "shear_toughness", "mixing", "mixing_exponent"})
+    if (has(table, key))
+      add_at(table, path, key, "is used with law = \"cohesive_zone\" only; give that law, or leave this out", faults);
 }
 
 void check_selection(const Value& table, const std::string& path, Faults& faults) {

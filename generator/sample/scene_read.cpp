@@ -305,7 +305,7 @@ Scene parse_scene(const std::string& text, const std::string& name, const std::v
   scene.stages = read_stages(root, simulates(root) ? Needs::mechanics : Needs::geometry, faults);
   if (sample) check_groups(root, scene, faults);
   faults.raise();
-  for (Stage& stage : scene.stages) stage.slow_down();
+  for (Stage& stage : scene.stages) stage.slow_down(), stage.file = name;
   return scene;
 }
 

@@ -10,6 +10,7 @@ void study_inflation(StudyBench& bench);
 void study_compaction(StudyBench& bench);
 void study_links(StudyBench& bench);
 void study_double_cantilever(StudyBench& bench);
+void study_cohesive_zone(StudyBench& bench);
 void study_honeycomb(StudyBench& bench);
 void study_friction(StudyBench& bench);
 void study_breakable_walls(StudyBench& bench);
@@ -34,6 +35,9 @@ const std::vector<Study>& studies() {
       {"double_cantilever",
        "At which load and opening does a glued double cantilever tear, and how tough does that make it?",
        study_double_cantilever},
+      {"cohesive_zone",
+       "What does a link that softens take, how tough does it make a crack, and does the spacing still matter?",
+       study_cohesive_zone},
       {"honeycomb", "How stiff is a honeycomb of linked cells, and under which stress does its first link break?",
        study_honeycomb},
       {"friction", "Does friction stick, slide, stop and keep angular momentum as Coulomb's law says?", study_friction},

@@ -32,6 +32,8 @@ QuasiStatic::QuasiStatic(Model& model, const std::vector<Load>& loads, const Loa
       for (int c = 0; c < 2; ++c)
         if (loads[l].holds[c]) held_.push_back({i, c, l, x_.at(i)[c]});
   reaction_.assign(held_.size(), 0.0);
+  softens_ = model.links && model.links->softens();
+  if (softens_) works_.fracture = -model.links->dissipated();
   dissipates_ = model.friction > 0;
   for (const ShellTerm* term : model.shell_terms()) dissipates_ = dissipates_ || term->plastic();
   Index count = 0;
@@ -60,17 +62,55 @@ double QuasiStatic::criterion(const Field& x) {
   return model_.links ? model_.links->most_loaded(x, link_work_).zeta : -1.0;
 }
 
-double QuasiStatic::potential(const Field& x) const {
+double QuasiStatic::energy(const Field& x) const {
   double sum = 0;
   for (const Term* term : model_.terms()) sum += term->energy(x);
+  return sum;
+}
+
+double QuasiStatic::potential(const Field& x) const {
+  double sum = energy(x);
   for (std::size_t i = 0; i < x.size(); ++i) sum -= dead_.at(i).dot(x.at(i));
   return sum;
 }
 
-// History moves in all terms but the links: those break in `fall`, one after the other.
+// History moves in all terms but brittle links: those break in `fall`, one after the other.
 void QuasiStatic::commit() {
   for (Term* term : model_.terms())
-    if (term != model_.links.get()) term->commit(x_);
+    if (term != model_.links.get() || model_.links->softens()) term->commit(x_);
+}
+
+/// Links that have lost their last hold in this commit. Returns whether there are any.
+bool QuasiStatic::hand_over_softened() {
+  if (!softens_) return false;
+  const std::int64_t first = static_cast<std::int64_t>(breaks_.size());
+  for (const Break& softened : model_.links->breaks()) {
+    const std::int64_t place = static_cast<std::int64_t>(breaks_.size()) - first;
+    breaks_.push_back({.link = softened, .avalanche = avalanches_, .place = place, .time = time_});
+    model_.links->set_break_time(softened.link, start_time_ + time_);
+    if (model_.contacts) model_.contacts->release(softened.link, x_, softened.friction_force);
+    works_.fracture += softened.energy;
+  }
+  if (model_.links->breaks().empty()) return false;
+  ++avalanches_;
+  return true;
+}
+
+/// Commits the present configuration, and finds rest anew while links let go in that.
+void QuasiStatic::bring_to_rest() {
+  commit();
+  while (hand_over_softened()) {
+    Field x = x_;
+    if (!try_at(time_, x)) return give_up("no equilibrium after a break at this load", time_);
+    accept(time_, std::move(x));
+    commit();
+  }
+}
+
+StaticWorks QuasiStatic::works() const {
+  StaticWorks w = works_;
+  if (softens_) w.fracture += model_.links->dissipated();
+  return w;
 }
 
 void QuasiStatic::book_pressures(double time) {
@@ -128,8 +168,8 @@ void QuasiStatic::settle() {
   dead_ = Field(x.size());
   if (!solver_.relax(x, settings_.residual)) give_up("no equilibrium to start from", time_);
   accept(time_, std::move(x));
-  works_ = {};
-  commit();
+  works_ = {.loads = 0, .pressure = 0, .fracture = works_.fracture, .released = 0};
+  bring_to_rest();
   critical_ = criterion(x_) >= -settings_.load_tolerance;
 }
 
@@ -193,8 +233,10 @@ void QuasiStatic::load_towards(double end) {
       const double z = criterion(there);
       const bool at_last = high > 0 && high - low < kShortest * h;
       if (z <= settings_.load_tolerance || at_last || tries > kMostTries) {
+        const double left_before = softens_ ? works_.loads + works_.pressure - energy(x_) : 0.0;
         accept(step == h ? target : time_ + step, std::move(there));
-        commit();
+        if (softens_) works_.released += std::max(0.0, works_.loads + works_.pressure - energy(x_) - left_before);
+        bring_to_rest();
         critical_ = z >= -settings_.load_tolerance;
         break;
       }

@@ -30,7 +30,8 @@ struct BreakAtRest {
   double released = 0;         // energy that was free to become motion when the sample fell to its next equilibrium [J]
 };
 
-/// Booked since the stepper was made [J].
+/// Booked since the stepper was made [J]. Where links soften, an increment of load may let the sample fall on its way: then what its work
+/// exceeds its energy by counts as released.
 struct StaticWorks {
   double loads = 0, pressure = 0, fracture = 0, released = 0;
 };
@@ -60,7 +61,7 @@ class QuasiStatic {
 
   /// Breaks since the last call.
   std::vector<BreakAtRest> take_breaks() { return std::exchange(breaks_, {}); }
-  const StaticWorks& works() const { return works_; }
+  StaticWorks works() const;
   /// What each load exerts on the sample [N], and on each node.
   std::vector<Vec2> load_forces() const;
   Field load_force_on_nodes() const;
@@ -83,9 +84,12 @@ class QuasiStatic {
   void prescribe(double time, Field& x);
   bool try_at(double time, Field& x);
   void accept(double time, Field x);
+  double energy(const Field& x) const;
   double potential(const Field& x) const;
   double criterion(const Field& x);
   void commit();
+  bool hand_over_softened();
+  void bring_to_rest();
   void book_pressures(double time);
   void break_link(Index link, std::int64_t place);
   void give_up(const std::string& what, double time);
@@ -107,10 +111,11 @@ class QuasiStatic {
   std::vector<double> lever_;  // of prescribed pressures, at the accepted configuration [J/Pa]
   bool dissipates_ = false;    // committing history lowers the potential: walls flow, or contacts rub
   std::string over_;
+  bool softens_ = false;  // links lose their hold little by little, in `commit`
   bool critical_ = false;
   std::int64_t avalanches_ = 0;
   std::vector<BreakAtRest> breaks_;
-  StaticWorks works_;
+  StaticWorks works_;  // fracture: of what has broken, less what damage had dissipated before the stage
 };
 
 }  // namespace lamella

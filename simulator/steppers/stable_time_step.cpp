@@ -53,10 +53,13 @@ class OneRow final : public StiffnessSink {
   double off_ = 0;
 };
 
-// A contact that is about to close counts as closed, so that it cannot surprise the step.
+// A contact that is about to close counts as closed, and a damaged link as whole, as it is again when it is pressed: they cannot surprise
+// the step.
 void add_stiffness(const Model& model, const Term& term, const Field& x, StiffnessSink& sink) {
   if (&term == model.contacts.get())
     model.contacts->add_possible_stiffness(x, sink);
+  else if (&term == model.links.get() && model.links->softens())
+    model.links->add_undamaged_stiffness(x, sink);
   else
     term.add_stiffness(x, sink);
 }

@@ -60,6 +60,7 @@ VelocityVerlet::VelocityVerlet(Model& model, std::vector<Load>& loads, State& st
     }
   }
   for (auto& mask : fully_held_) mask = mask == 3;
+  if (model.links && model.links->softens()) booked_.fracture = -model.links->dissipated();  // before this stage
 }
 
 void VelocityVerlet::list_incoming() {
@@ -137,9 +138,11 @@ void VelocityVerlet::end_walls(std::vector<WallBreak>& now, double dt) {
     double of_links = 0;  // of those that have lost their frame
     if (links) {
       for (const Index l : links->without_tangent(rupture.broken())) {
+        const double spent = links->dissipated(l);  // by damage: no part of what was held
         breaks_.push_back(links->cut(l, before, x));
         links->set_break_time(l, state_.time);
-        of_links += breaks_.back().energy;
+        of_links += breaks_.back().energy - spent;
+        booked_.fracture += spent;
         if (contacts) contacts->release(l, x, breaks_.back().friction_force);
       }
       links->follow(rupture.broken());
@@ -421,6 +424,8 @@ Measurement VelocityVerlet::measured_step(double dt, double kick, Field* force_o
   Works history = booked_;
   for (const ShellTerm* term : shell_terms_) history.plastic += term->dissipated();
   if (model_.contacts && model_.friction > 0) history.friction = model_.contacts->friction_dissipated();
+  if (model_.links)
+    history.fracture += model_.links->dissipated();  // that of a broken link has been booked with its break
 
   advance<true>(dt, kick, force_on_node);
 

@@ -12,13 +12,6 @@ void LinkForces::resize(std::size_t n) {
   for (auto* v : {&fx, &fy, &gx, &gy, &f_n, &f_t, &dx, &dy, &cx, &cy}) v->resize(n + 2);
 }
 
-/// One link at x. M = f_n D_t - f_t D_n is conjugate to the rotation of the frame.
-struct CohesiveLinks::State {
-  Vec2 d, t, n;    // x_b - x_a and the frame
-  double tau = 0;  // length of the tangent stencil [m]
-  double f_n = 0, f_t = 0, moment = 0;
-};
-
 CohesiveLinks::CohesiveLinks(const ShellLayout& layout, LinkParameters parameters)
     : layout_(layout),
       sample_(layout.sample()),
@@ -26,6 +19,10 @@ CohesiveLinks::CohesiveLinks(const ShellLayout& layout, LinkParameters parameter
       first_normal_stiffness_(p_.normal_stiffness),
       intact_(sample_.links.size(), 1) {
   if (breakable()) keep_break_times();
+  if (!p_.normal_toughness.empty()) {
+    zone_.resize(sample_.links.size());
+    first_tangential_stiffness_ = p_.tangential_stiffness;
+  }
   make_stations();
 }
 
@@ -119,8 +116,13 @@ CohesiveLinks::State CohesiveLinks::state(const Field& x, Index l) const {
   s.tau = tau.norm();
   s.t = tau / s.tau;
   s.n = right_of(s.t);
-  s.f_n = p_.normal_stiffness[l] * (s.d.dot(s.n) - link.offset_n);
-  s.f_t = p_.tangential_stiffness[l] * (s.d.dot(s.t) - link.offset_t);
+  s.u_n = s.d.dot(s.n) - link.offset_n;
+  s.u_t = s.d.dot(s.t) - link.offset_t;
+  s.k_nn = p_.normal_stiffness[l], s.k_tt = p_.tangential_stiffness[l];
+  s.f_n = s.k_nn * s.u_n;
+  s.f_t = s.k_tt * s.u_t;
+  s.potential = s.stored = 0.5 * s.f_n * s.u_n + 0.5 * s.f_t * s.u_t;
+  if (softens() && intact_[l]) respond(l, s);
   s.moment = s.f_n * s.d.dot(s.t) - s.f_t * s.d.dot(s.n);
   return s;
 }
@@ -128,10 +130,7 @@ CohesiveLinks::State CohesiveLinks::state(const Field& x, Index l) const {
 double CohesiveLinks::energy(const Field& x) const {
   double sum = 0;
   for (Index l = 0; l < static_cast<Index>(sample_.links.size()); ++l) {
-    if (!intact_[l]) continue;
-    const State s = state(x, l);
-    sum += 0.5 * s.f_n * (s.d.dot(s.n) - sample_.links[l].offset_n) +
-           0.5 * s.f_t * (s.d.dot(s.t) - sample_.links[l].offset_t);
+    if (intact_[l]) sum += state(x, l).potential;
   }
   return sum;
 }
@@ -168,6 +167,7 @@ bool CohesiveLinks::evaluate(const Field& x, Index first, Index last, LinkForces
     GX[i] = g * cy, GY[i] = -g * cx;
   }
   if (!breakable()) return false;
+  if (softens()) return soften(x, first, last, out);
   const double *SN = inverse_strength_n_.data() + first, *ST = inverse_strength_t_.data() + first;
   double worst = -1;
   if (p_.exponent == 2) {
@@ -198,7 +198,8 @@ Break CohesiveLinks::broken_at(const Field& x, Index l) const {
   event.link = l;
   event.f_n = s.f_n, event.f_t = s.f_t;
   event.position = 0.5 * (x.at(sample_.links[l].a) + x.at(sample_.links[l].b));
-  event.energy = 0.5 * (k_n > 0 ? s.f_n * s.f_n / k_n : 0.0) + 0.5 * (k_t > 0 ? s.f_t * s.f_t / k_t : 0.0);
+  event.energy = softens() ? s.potential + dissipated(l)
+                           : 0.5 * (k_n > 0 ? s.f_n * s.f_n / k_n : 0.0) + 0.5 * (k_t > 0 ? s.f_t * s.f_t / k_t : 0.0);
   // A pressed pair keeps its normal force: contact takes over what the link held.
   if (p_.contact_after && s.f_n < 0 && p_.friction > 0)
     event.friction_force = std::clamp(s.f_t, p_.friction * s.f_n, -p_.friction * s.f_n);
@@ -226,32 +227,19 @@ void CohesiveLinks::remove_stiffness(Index l) {
 
 void CohesiveLinks::break_exceeded(const Field& x, Index first, Index last, LinkForces& out,
                                    std::vector<Break>& breaks) {
+  if (softens()) return commit_damage(x, first, out, breaks);
   for (Index i = first; i < last; ++i) {
     const Index at = i - first + 1, l = link_[i];
     if (l < 0 || !intact_[l]) continue;
     if (yield_function(out.f_n[at], out.f_t[at], p_.normal_strength[l], p_.tangential_strength[l], p_.exponent) < 0)
       continue;
-    const State s = state(x, l);
-    Break event = broken_at(x, l);
-    const double f_n_after = p_.contact_after && s.f_n < 0 ? s.f_n : 0.0;
-    const double f_n = 0.5 * (s.f_n + f_n_after), f_t = 0.5 * (s.f_t + event.friction_force);
-    const Vec2 mean = f_n * s.n + f_t * s.t;
-    // The couple of the mean forces goes to the frame, so that angular momentum is kept in this step too.
-    const double moment = f_n * s.d.dot(s.t) - f_t * s.d.dot(s.n);
-    const double share = s.moment != 0 ? moment / s.moment : 0.0;
-    event.dropped_force = Vec2(out.fx[at], out.fy[at]) - mean;
-    event.dropped_frame_force = (1 - share) * Vec2(out.gx[at], out.gy[at]);
-    breaks.push_back(event);
-    out.fx[at] = mean.x(), out.fy[at] = mean.y();
-    out.gx[at] *= share, out.gy[at] *= share;
-    intact_[l] = 0;
-    remove_stiffness(l);
+    take_out(x, l, at, out, breaks);
   }
 }
 
 CohesiveLinks::Loaded CohesiveLinks::most_loaded(const Field& x, LinkForces& work) const {
   Loaded most;
-  if (!breakable()) return most;
+  if (!breakable() || softens()) return most;
   const Index count = static_cast<Index>(a_.size());
   evaluate(x, 0, count, work);
   for (Index i = 0; i < count; ++i) {
@@ -271,6 +259,24 @@ Break CohesiveLinks::break_at_rest(Index l, const Field& x) {
   return event;
 }
 
+void CohesiveLinks::take_out(const Field& x, Index l, Index at, LinkForces& out, std::vector<Break>& breaks) {
+  const State s = state(x, l);
+  Break event = broken_at(x, l);
+  const double f_n_after = p_.contact_after && s.f_n < 0 ? s.f_n : 0.0;
+  const double f_n = 0.5 * (s.f_n + f_n_after), f_t = 0.5 * (s.f_t + event.friction_force);
+  const Vec2 mean = f_n * s.n + f_t * s.t;
+  // The couple of the mean forces goes to the frame, so that angular momentum is kept in this step too.
+  const double moment = f_n * s.d.dot(s.t) - f_t * s.d.dot(s.n);
+  const double share = s.moment != 0 ? moment / s.moment : 0.0;
+  event.dropped_force = Vec2(out.fx[at], out.fy[at]) - mean;
+  event.dropped_frame_force = (1 - share) * Vec2(out.gx[at], out.gy[at]);
+  breaks.push_back(event);
+  out.fx[at] = mean.x(), out.fy[at] = mean.y();
+  out.gx[at] *= share, out.gy[at] *= share;
+  intact_[l] = 0;
+  remove_stiffness(l);
+}
+
 std::vector<Index> CohesiveLinks::without_tangent(const BrokenBars& broken) const {
   std::vector<Index> out;
   for (Index l = 0; l < static_cast<Index>(sample_.links.size()); ++l)
@@ -280,12 +286,7 @@ std::vector<Index> CohesiveLinks::without_tangent(const BrokenBars& broken) cons
 
 Break CohesiveLinks::cut(Index l, const Field& x, const Field& later) {
   Break event = broken_at(x, l);
-  const auto stored = [&](const Field& at) {
-    const State s = state(at, l);
-    const Link& link = sample_.links[l];
-    return 0.5 * s.f_n * (s.d.dot(s.n) - link.offset_n) + 0.5 * s.f_t * (s.d.dot(s.t) - link.offset_t);
-  };
-  event.energy = 0.5 * (stored(x) + stored(later));
+  event.energy = 0.5 * (state(x, l).potential + state(later, l).potential) + dissipated(l);
   intact_[l] = 0;
   remove_stiffness(l);
   return event;
@@ -356,16 +357,19 @@ void CohesiveLinks::add_stiffness(const Field& x, StiffnessSink& sink) const {
     if (intact_[l]) add_stiffness_of(l, x, sink);
 }
 
-void CohesiveLinks::add_stiffness_of(Index i, const Field& x, StiffnessSink& sink) const {
-  const Link& link = this->link(i);
-  const double k_n = p_.normal_stiffness[i], k_t = p_.tangential_stiffness[i];
-  const State s = state(x, i);
+void CohesiveLinks::add_stiffness_of(Index l, const Field& x, StiffnessSink& sink) const {
+  add_stiffness_of(l, state(x, l), sink);
+}
+
+void CohesiveLinks::add_stiffness_of(Index l, const State& s, StiffnessSink& sink) const {
+  const Link& link = this->link(l);
   const double d_n = s.d.dot(s.n), d_t = s.d.dot(s.t);
   const Vec2 phi = -s.n / s.tau;  // d(phi)/d(tau); left_of(t) = -n
   // u_n: d/dD = n, d/dphi = D_t; u_t: d/dD = t, d/dphi = -D_n
-  const double w_phi_phi = k_n * d_t * d_t + k_t * d_n * d_n - s.f_n * d_n - s.f_t * d_t;
-  const Vec2 w_d_phi = (k_n * d_t + s.f_t * -1) * s.n + (-k_t * d_n + s.f_n) * s.t;
-  const Eigen::Matrix2d dd = k_n * s.n * s.n.transpose() + k_t * s.t * s.t.transpose();
+  const double w_phi_phi = s.k_nn * d_t * d_t + s.k_tt * d_n * d_n - 2 * s.k_nt * d_n * d_t - s.f_n * d_n - s.f_t * d_t;
+  const Vec2 w_d_phi = (s.k_nn * d_t - s.k_nt * d_n - s.f_t) * s.n + (-s.k_tt * d_n + s.k_nt * d_t + s.f_n) * s.t;
+  const Eigen::Matrix2d dd = s.k_nn * s.n * s.n.transpose() + s.k_tt * s.t * s.t.transpose() +
+                             s.k_nt * (s.n * s.t.transpose() + s.t * s.n.transpose());
   const Eigen::Matrix2d d_tau = w_d_phi * phi.transpose();
   // d2(phi)/d(tau)2 = -(t m^T + m t^T) / |tau|^2 with m = left_of(t) = -n
   const Eigen::Matrix2d tau_tau =
@@ -386,6 +390,7 @@ void CohesiveLinks::add_stiffness_of(Index i, const Field& x, StiffnessSink& sin
 
 double CohesiveLinks::mode_mix_of(const Break& b) const {
   if (!breakable()) return 0;
+  if (softens() && zone_[b.link].end > zone_[b.link].onset) return zone_mode_mix(zone_link(b.link), zone_[b.link]);
   return mode_mix(b.f_n, b.f_t, p_.normal_strength[b.link], p_.tangential_strength[b.link]);
 }
 
@@ -403,6 +408,7 @@ Index CohesiveLinks::broken() const { return static_cast<Index>(std::count(intac
 void CohesiveLinks::save(ArraySet& restart) const {
   restart.add({"link_intact", "1", "link", 1, std::vector<std::int32_t>(intact_.begin(), intact_.end())});
   if (!break_time_.empty()) restart.add({"link_break_time", "s", "link", 1, break_time_});
+  if (softens()) save_damage(restart);
 }
 
 void CohesiveLinks::restore(const ArraySet& restart) {
@@ -412,19 +418,21 @@ void CohesiveLinks::restore(const ArraySet& restart) {
   for (std::size_t l = 0; l < intact_.size(); ++l)
     if (!intact_[l]) remove_stiffness(static_cast<Index>(l));
   if (!break_time_.empty() && restart.find("link_break_time")) break_time_ = restart.doubles("link_break_time");
+  restore_damage(restart);
 }
 
 void CohesiveLinks::add_output(const Field& x, ArraySet& frame) const {
   const std::size_t n = sample_.links.size();
-  std::vector<double> force(2 * n), energy(n), zeta(breakable() ? n : 0);
+  std::vector<double> force(2 * n), energy(n), zeta(breakable() ? n : 0), damage(softens() ? n : 0, 1.0);
   for (Index l = 0; l < static_cast<Index>(n); ++l) {
     if (!intact_[l]) continue;
     const State s = state(x, l);
-    const Link& link = sample_.links[l];
     force[2 * l] = s.f_n, force[2 * l + 1] = s.f_t;
-    energy[l] = 0.5 * s.f_n * (s.d.dot(s.n) - link.offset_n) + 0.5 * s.f_t * (s.d.dot(s.t) - link.offset_t);
-    if (breakable())
-      zeta[l] = yield_function(s.f_n, s.f_t, p_.normal_strength[l], p_.tangential_strength[l], p_.exponent);
+    energy[l] = s.stored;
+    if (softens()) damage[l] = s.damage;
+    if (breakable())  // of the forces without damage: it goes on growing while a link softens
+      zeta[l] = yield_function(p_.normal_stiffness[l] * s.u_n, p_.tangential_stiffness[l] * s.u_t,
+                               p_.normal_strength[l], p_.tangential_strength[l], p_.exponent);
   }
   frame.add({"link_force", "N", "link", 2, std::move(force)});
   frame.add({"link_energy", "J", "link", 1, std::move(energy)});
@@ -433,12 +441,13 @@ void CohesiveLinks::add_output(const Field& x, ArraySet& frame) const {
   if (!breakable()) return;
   frame.add({"link_zeta", "1", "link", 1, std::move(zeta)});
   frame.add({"link_w0", "J", "link", 1, p_.full_energy});
+  if (softens()) frame.add({"link_damage", "1", "link", 1, std::move(damage)});
 }
 
 std::size_t CohesiveLinks::bytes() const {
   return a_.size() * (6 * sizeof(Index) + (breakable() ? 6 : 4) * sizeof(double)) +
          intact_.size() * (sizeof(Index) + 1 + (breakable() ? 7 : 3) * sizeof(double)) +
-         standing_.size() * sizeof(Link);
+         standing_.size() * sizeof(Link) + zone_.size() * (sizeof(ZoneHistory) + 2 * sizeof(double));
 }
 
 }  // namespace lamella

@@ -2,12 +2,14 @@
 // frame of the current interface, t along tau = (x_a+ - x_a-) - (x_b+ - x_b-). The frame is differentiated too: a link
 // of finite length that carries f_t turns its walls by the couple f_t D_n, and a rigid rotation creates no force.
 //
-// WHERE DOES A LINK BREAK? In `break_exceeded`, here, and nowhere else. Whether it should is `yield_function` in laws/cohesive.h.
+// WHERE DOES A LINK BREAK? In `break_exceeded`, here, and nowhere else. Whether it should is `yield_function` in laws/cohesive.h. Links that
+// soften before they break (laws/cohesive_zone.h) keep a history; what they need beyond the rest is in cohesive_links_damage.cpp.
 #pragma once
 #include <cstdint>
 #include <optional>
 
 #include "generator/sample/broken_bars.h"
+#include "simulator/laws/cohesive_zone.h"
 #include "simulator/shells.h"
 #include "simulator/terms/term.h"
 
@@ -19,6 +21,10 @@ struct LinkParameters {
   std::vector<double> normal_strength, tangential_strength;    // [N]; both empty: links never break
   std::vector<double> full_energy;                             // W_0 of a link of one full spacing [J]; empty likewise
   double exponent = 2;                                         // alpha
+  // Cohesive zone: energy of a whole link in pure opening and in pure shear [J]; 0: a brittle one. Both empty: all are brittle.
+  std::vector<double> normal_toughness, tangential_toughness;
+  ModeMixing mixing = ModeMixing::kBenzeggaghKenane;
+  double mixing_exponent = 2;
   // What remains of a pair once its link is gone: contact of the link's own normal stiffness, and friction.
   bool contact_after = false;
   double friction = 0;          // mu
@@ -28,9 +34,9 @@ struct LinkParameters {
 /// A link that has just broken.
 struct Break {
   Index link = 0;
-  double f_n = 0, f_t = 0;       // at the break [N]
-  double friction_force = 0;     // f_t clipped to mu f_n, where the contact's friction spring starts [N]
-  double energy = 0;             // link energy lost less contact energy gained [J]
+  double f_n = 0, f_t = 0;    // at the break [N]
+  double friction_force = 0;  // f_t clipped to mu f_n, where the contact's friction spring starts [N]
+  double energy = 0;  // link energy lost, what damage dissipated before included, less contact energy gained [J]
   Vec2 position = Vec2::Zero();  // [m]
   // What the step of the break leaves out of the full forces: on a (b has the opposite), and of G. The ledger weighs a
   // configuration before its breaks.
@@ -42,6 +48,7 @@ struct LinkForces {
   std::vector<double> fx, fy, gx, gy;
   std::vector<double> f_n, f_t;
   std::vector<double> dx, dy, cx, cy;  // scratch: x_b - x_a and x_b + x_a, then the sums on a and b
+  std::vector<Index> advancing;        // stations whose damage grows; only of links that soften
   void resize(std::size_t n);
 };
 
@@ -69,14 +76,15 @@ class CohesiveLinks final : public Term {
   Index begin(Index block) const { return block_begin_[block]; }
   Index middle(Index block) const { return block_middle_[block]; }
   Index end(Index block) const { return block_begin_[block + 1]; }
-  /// Forces at stations [begin, end), result i - begin. Returns true if a link exceeds its criterion.
+  /// Forces at stations [begin, end), result i - begin. Returns true if a link exceeds its criterion, or its damage grows.
   bool evaluate(const Field& x, Index begin, Index end, LinkForces& forces) const;
   /// Asks for what `evaluate` will read of stations [begin, end).
   void prefetch_stations(Index begin, Index end) const;
   /// Largest node that the stations of this block or of an earlier one touch.
   Index farthest_node(Index block) const { return farthest_node_[block]; }
   /// Breaks the exceeded links among [begin, end). The force of the step of the break becomes the mean of link and what
-  /// follows it: the kick before the break and the one after it, which keeps the energy ledger second order in dt.
+  /// follows it: the kick before the break and the one after it, which keeps the energy ledger second order in dt. Links that soften
+  /// keep the damage that they have at x.
   void break_exceeded(const Field& x, Index begin, Index end, LinkForces& forces, std::vector<Break>& breaks);
   /// Turns the results of `evaluate` into the force on each station's a (in cx, cy) and b (in dx, dy).
   void combine(Index begin, Index end, LinkForces& forces) const;
@@ -90,6 +98,15 @@ class CohesiveLinks final : public Term {
   /// k_n of a link of the sample while it was intact [N/m].
   double normal_stiffness(Index link) const { return first_normal_stiffness_[link]; }
   bool breakable() const { return !p_.normal_strength.empty(); }
+  bool softens() const { return !zone_.empty(); }
+  /// What damage has dissipated in intact links up to the last commit [J]; of all of them, or of one.
+  double dissipated() const;
+  double dissipated(Index link) const { return softens() ? zone_dissipated(zone_[link]) : 0.0; }
+  /// Length over which links like this one soften ahead of a crack in opening between walls of this bending rigidity [m], roughly; 0 where
+  /// it is brittle.
+  double zone_length(Index link, double bending) const;
+  /// The stiffness as it would be without damage: how stiff a link can become again, by closing or unloading.
+  void add_undamaged_stiffness(const Field& x, StiffnessSink& sink) const;
   bool intact(Index link) const { return intact_[link] != 0; }
   const std::vector<std::uint8_t>& intact() const { return intact_; }
   Index broken() const;
@@ -106,9 +123,10 @@ class CohesiveLinks final : public Term {
   // ---- at rest: one link at a time ----
   struct Loaded {
     double zeta = -1;
-    Index link = -1;  // -1: none is intact
+    Index link = -1;  // -1: none
   };
-  /// The intact link that is nearest to its criterion at x, or furthest beyond it. `work` is scratch.
+  /// The intact link that is nearest to its criterion at x, or furthest beyond it; none where links soften: those break in `commit`. `work`
+  /// is scratch.
   Loaded most_loaded(const Field& x, LinkForces& work) const;
   /// The link is gone from now on, without the half forces of a step in time.
   Break break_at_rest(Index link, const Field& x);
@@ -127,12 +145,31 @@ class CohesiveLinks final : public Term {
   const std::vector<Break>& breaks() const { return breaks_; }
 
  private:
-  struct State;
+  /// One link at x. M = f_n D_t - f_t D_n is conjugate to the rotation of the frame.
+  struct State {
+    Vec2 d, t, n;             // x_b - x_a and the frame
+    double tau = 0;           // length of the tangent stencil [m]
+    double u_n = 0, u_t = 0;  // openings D_n - o_n, D_t - o_t [m]
+    double f_n = 0, f_t = 0, moment = 0;
+    double potential = 0, stored = 0;     // as the term's energy, and without what damage dissipates in it [J]
+    double k_nn = 0, k_nt = 0, k_tt = 0;  // second derivatives of the potential with respect to the openings [N/m]
+    double damage = 0;
+    bool advances = false;  // damage grows here
+  };
   State state(const Field& x, Index link) const;
   Break broken_at(const Field& x, Index link) const;
   void make_stations();
   void add_stations(Index link, bool continues);
   void remove_stiffness(Index link);
+  void take_out(const Field& x, Index link, Index at, LinkForces& forces, std::vector<Break>& breaks);
+  void add_stiffness_of(Index link, const State& s, StiffnessSink& sink) const;
+  // ---- links that soften: cohesive_links_damage.cpp ----
+  ZoneLink zone_link(Index link) const;
+  void respond(Index link, State& s) const;
+  bool soften(const Field& x, Index begin, Index end, LinkForces& forces) const;
+  void commit_damage(const Field& x, Index begin, LinkForces& forces, std::vector<Break>& breaks);
+  void save_damage(ArraySet& restart) const;
+  void restore_damage(const ArraySet& restart);
 
   const ShellLayout& layout_;
   const Sample& sample_;
@@ -151,7 +188,9 @@ class CohesiveLinks final : public Term {
   std::vector<Index> station_;                                   // of each link of the sample
   // per link of the sample
   std::vector<std::uint8_t> intact_;
-  std::vector<double> break_time_;  // [s], -1 while intact; empty: neither links nor bars break
+  std::vector<ZoneHistory> zone_;                   // empty: no link softens
+  std::vector<double> first_tangential_stiffness_;  // k_t while the link was intact [N/m]; empty likewise
+  std::vector<double> break_time_;                  // [s], -1 while intact; empty: neither links nor bars break
   std::vector<Break> breaks_;
 };
 

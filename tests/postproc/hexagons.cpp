@@ -128,6 +128,7 @@ Frame plain_frame(const Sample& sample, const std::vector<Vec2>& x, double time)
   frame.arrays.add({"link_force", "N", "link", 2, std::vector<double>(2 * links, 0.0)});
   frame.arrays.add({"link_energy", "J", "link", 1, std::vector<double>(links, 0.0)});
   frame.arrays.add({"link_zeta", "1", "link", 1, std::vector<double>(links, -1.0)});
+  frame.arrays.add({"link_damage", "1", "link", 1, std::vector<double>(links, 0.25)});
   frame.arrays.add({"link_w0", "J", "link", 1, std::vector<double>(links, 1e-9)});
   frame.arrays.add({"link_intact", "1", "link", 1, std::vector<std::int32_t>(links, 1)});
   frame.arrays.add({"link_break_time", "s", "link", 1, std::vector<double>(links, -1.0)});

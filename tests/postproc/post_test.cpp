@@ -123,6 +123,12 @@ TEST_F(Posted, cracks_are_empty_at_first_with_all_their_arrays) {
   EXPECT_EQ(last->GetCellData()->GetArray("from_side_to_side")->GetTuple1(0), 1);
 }
 
+TEST_F(Posted, links_show_their_forces_and_where_they_soften_their_damage) {
+  const auto mesh = read_mesh(folder_ / "out" / "vtk" / "links_0000.vtp");
+  EXPECT_THAT(names_of(mesh->GetCellData()), testing::IsSupersetOf({"f_n", "f_t", "energy", "zeta", "damage"}));
+  EXPECT_EQ(mesh->GetCellData()->GetArray("damage")->GetTuple1(0), 0.25);
+}
+
 TEST_F(Posted, cells_are_polygons_with_integer_ids_and_nine_components_of_stress) {
   TrajectoryReader reader(trajectory_);
   const auto mesh = read_mesh(folder_ / "out" / "vtk" / "cells_0012.vtp");

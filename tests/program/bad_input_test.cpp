@@ -130,6 +130,18 @@ TEST_F(bad_input, values_that_cannot_be_exit_2) {
   EXPECT_THAT(check(replaced(kHoneycomb, "[sample]", "[sample]\nwidth = 1")), ends_with(2, "sample.height: missing"));
 }
 
+TEST_F(bad_input, links_that_cannot_soften_exit_2_with_the_least_toughness_that_works) {
+  // 20 N/m: 200 pJ/m in opening, 2 nJ/m in shear.
+  const std::string zone =
+      replaced(kHoneycomb, "[loading]", "law = \"cohesive_zone\"\ntoughness = \"1 nJ/m\"\n[loading]");
+  EXPECT_THAT(check(zone), ends_with(2, "scene.toml:12: links.toughness: 1e-09 J/m is too little"));
+  EXPECT_THAT(check(zone), ends_with(2, "give at least toughness = 2.002e-09 J/m"));
+  EXPECT_EQ(check(replaced(zone, "1 nJ/m", "2.01 nJ/m")).status, 0);
+  EXPECT_THAT(check(replaced(zone, "1 nJ/m", "-1 nJ/m")), ends_with(2, "scene.toml:18: links.toughness: "));
+  EXPECT_THAT(check(replaced(zone, "law = \"cohesive_zone\"\n", "")),
+              ends_with(2, "scene.toml:17: links.toughness: is used with law = \"cohesive_zone\" only"));
+}
+
 TEST_F(bad_input, a_time_step_above_the_stable_limit_ends_the_run) {
   EXPECT_THAT(run(kHoneycomb, "--set run.time_step=1"), ends_with(3, "exceeds the stable limit"));
 }

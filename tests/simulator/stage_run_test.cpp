@@ -101,6 +101,126 @@ TEST(StageRun, a_run_under_a_prescribed_pressure_resumes_to_the_same_bits) {
             resumed.frame(resumed.frames() - 1).arrays.doubles("x"));
 }
 
+TEST(StageRun, says_over_how_many_spacings_links_soften_and_when_those_are_too_few) {
+  // EI = 1, f = 1 N/m, spacing 1/4: G = 1 J/m makes (EI G / f^2)^(1/4) = 1 m, G = 0.04 about 0.45 m.
+  Scene scene = inflated(0.5);
+  scene.stages[0].cells["cells"].core.reset();
+  LinkScene& links = scene.stages[0].links["links"];
+  links.law = "cohesive_zone";
+  links.normal_stiffness = links.tangential_stiffness = 100;
+  links.normal_strength = links.tangential_strength = 1;
+  for (const auto& [toughness, spacings, enough] :
+       {std::tuple{1.0, "4 spacings", true}, {0.04, "1.79 spacings", false}}) {
+    links.toughness = toughness;
+    const auto lines = start_up_summary(two_bonded_squares(4), scene);
+    const auto line =
+        std::find_if(lines.begin(), lines.end(), [](const std::string& l) { return l.find("soften") != l.npos; });
+    ASSERT_NE(line, lines.end());
+    EXPECT_NE(line->find(spacings), std::string::npos) << *line;
+    EXPECT_EQ(line->find("fewer than 2") == std::string::npos, enough) << *line;
+  }
+  links.law = "brittle";
+  for (const std::string& line : start_up_summary(two_bonded_squares(4), scene))
+    EXPECT_EQ(line.find("soften"), std::string::npos) << line;
+}
+
+/// Two squares whose links soften, pulled apart in two stages: the first leaves them damaged.
+Scene torn() {
+  return parse_scene(R"(
+[sample]
+kind = "honeycomb"
+columns = 1
+rows = 2
+side = 1
+walls.segments = 1
+[cells]
+axial_rigidity = 400
+bending_rigidity = 5
+mass_per_length = 1
+radius = 0.05
+[links]
+law = "cohesive_zone"
+normal_stiffness = 400
+tangential_stiffness = 150
+normal_strength = 6
+tangential_strength = 6
+toughness = 0.3
+[drag]
+rate = 1
+[loading]
+axis = "y"
+strain_rate = 0.01
+[output]
+frames = 5
+response = 20
+[[stages]]
+name = "damage"
+loading.strain = 0.035
+[[stages]]
+name = "part"
+loading.strain = 0.05
+)",
+                     "torn");
+}
+
+TEST(StageRun, links_that_soften_resume_to_the_same_bits_and_keep_their_damage_from_stage_to_stage) {
+  const TemporaryFolder folder;
+  const Sample squares = two_bonded_squares(4);
+  const Scene scene = torn();
+  {
+    TrajectoryWriter writer(folder / "whole", squares, {});
+    EXPECT_LT(simulate(squares, scene, writer, {}).residual, 1e-4);
+  }
+  const TrajectoryReader whole(folder / "whole");
+  for (const double cut_at : {2.8, 4.5}) {
+    {
+      TrajectoryWriter writer(folder / "cut", squares, {});
+      std::atomic<bool> stop = false;
+      SimulateOptions options;
+      options.interrupted = &stop;
+      options.progress = [&](const RunProgress& now) { stop = now.time > cut_at; };
+      EXPECT_TRUE(simulate(squares, scene, writer, options).interrupted);
+    }
+    resume(folder / "cut", {});
+    const TrajectoryReader resumed(folder / "cut");
+    EXPECT_EQ(whole.response().rows, resumed.response().rows);
+    const ArraySet last = whole.frame(whole.frames() - 1).arrays;
+    for (const char* name : {"x", "link_damage", "link_zeta", "link_energy"})
+      EXPECT_EQ(last.doubles(name), resumed.frame(resumed.frames() - 1).arrays.doubles(name)) << name;
+    ASSERT_EQ(whole.events().size(), resumed.events().size());
+    for (std::size_t e = 0; e < whole.events().size(); ++e) {
+      EXPECT_EQ(whole.events()[e].energy, resumed.events()[e].energy);
+      EXPECT_EQ(whole.events()[e].mode_mix, resumed.events()[e].mode_mix);
+    }
+  }
+
+  const auto stage = column(whole, "stage"), fracture = column(whole, "fracture");
+  double of_stage[2] = {0, 0};
+  for (std::size_t k = 0; k < stage.size(); ++k) {
+    double& largest = of_stage[static_cast<int>(stage[k])];
+    EXPECT_GE(fracture[k], largest) << k;
+    largest = fracture[k];
+  }
+  const auto second = std::find(stage.begin(), stage.end(), 1) - stage.begin();
+  EXPECT_EQ(fracture.at(second), 0) << "a stage books what it dissipates itself";
+  EXPECT_EQ(column(whole, "broken_links").at(second), 0);
+  ASSERT_EQ(whole.events().size(), 5u);
+  EXPECT_GT(of_stage[0], 0.05);
+  EXPECT_NEAR(of_stage[0] + of_stage[1], 0.3, 1e-9);  // J/m, of a wall of 1 m: opening alone
+  double booked = 0;
+  for (const Event& event : whole.events()) booked += event.energy;
+  EXPECT_NEAR(booked, 0.3, 1e-9);
+  int softening = 0;
+  for (int f = 0; f < whole.frames(); ++f) {
+    const ArraySet arrays = whole.frame(f).arrays;
+    for (const double d : arrays.doubles("link_damage")) {
+      EXPECT_TRUE(d >= 0 && d <= 1) << d;
+      softening += d > 0;
+    }
+  }
+  EXPECT_GT(softening, 5);
+}
+
 /// A ring in a box whose lid comes down, and goes up again.
 Scene pressed(const std::vector<std::string>& settings) {
   return parse_scene(R"(

@@ -15,6 +15,7 @@ using testing::AllOf;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 std::vector<std::string> faults(const std::string& text, const std::vector<std::string>& settings = {}) {
@@ -143,6 +144,34 @@ TEST(scene_faults, two_ways_of_saying_one_thing_contradict_each_other) {
               ElementsAre(HasSubstr("s.toml:14: stop.separated: needs grips")));
   EXPECT_THAT(faults(plate("[stop]\ntime = 1\n[run]\ntime_step = 1\nstep_fraction = 0.5\n")),
               ElementsAre(HasSubstr("contradicts")));
+}
+
+TEST(scene_faults, a_cohesive_zone_needs_what_it_softens_from_and_to_and_a_brittle_link_takes_neither) {
+  const std::string links = "[links]\nnormal_stiffness = 1\nnormal_strength = 1\ntangential_strength = 1\n";
+  const auto zone = [&](const std::string& more) { return faults(plate(links + "law = \"cohesive_zone\"\n" + more)); };
+  EXPECT_THAT(zone("toughness = 1\n"), ElementsAre());
+  EXPECT_THAT(zone("toughness = 1\nshear_toughness = 2\nmixing = \"power\"\nmixing_exponent = 1\n"), ElementsAre());
+  EXPECT_THAT(zone(""), ElementsAre(HasSubstr("s.toml:12: links.toughness: missing")));
+  EXPECT_THAT(faults(plate("[links]\nnormal_stiffness = 1\nlaw = \"cohesive_zone\"\ntoughness = 1\n")),
+              ElementsAre(HasSubstr("s.toml:12: links.normal_strength: missing; a cohesive zone softens from")));
+  EXPECT_THAT(zone("toughness = -1\n"), ElementsAre(HasSubstr("s.toml:17: links.toughness: -1 is out of range")));
+  EXPECT_THAT(zone("toughness = 0\n"), ElementsAre(HasSubstr("s.toml:17: links.toughness: 0 is out of range")));
+  EXPECT_THAT(zone("toughness = nan\n"), ElementsAre(HasSubstr("s.toml:17: links.toughness: nan is not finite")));
+  EXPECT_THAT(zone("toughness = \"1 N/m\"\n"), ElementsAre(HasSubstr("s.toml:17: links.toughness")));
+  EXPECT_THAT(zone("toughness = 1\nshear_toughness = -1\n"),
+              ElementsAre(HasSubstr("s.toml:18: links.shear_toughness")));
+  EXPECT_THAT(zone("toughness = 1\nmixing = \"linear\"\n"),
+              ElementsAre(AllOf(HasSubstr("s.toml:18: links.mixing"), HasSubstr("benzeggagh_kenane"))));
+  EXPECT_THAT(zone("toughness = 1\nmixing_exponent = 0.5\n"),
+              ElementsAre(HasSubstr("s.toml:18: links.mixing_exponent")));
+  EXPECT_THAT(faults(plate(links + "law = \"ductile\"\n")),
+              ElementsAre(AllOf(HasSubstr("s.toml:16: links.law"), HasSubstr("cohesive_zone"))));
+  EXPECT_THAT(faults(plate(links + "toughness = 1\nmixing_exponent = 2\n")),
+              ElementsAre(HasSubstr("s.toml:16: links.toughness: is used with law = \"cohesive_zone\" only"),
+                          HasSubstr("s.toml:17: links.mixing_exponent: is used with law = \"cohesive_zone\" only")));
+  EXPECT_THAT(faults(plate(links + "law = \"brittle\"\ntoughness = 1\n")), ElementsAre()) << "to compare";
+  // A group may be brittle among links that are not.
+  EXPECT_THAT(zone("toughness = 1\n[links.cells]\nlaw = \"brittle\"\n"), Not(Contains(HasSubstr("toughness"))));
 }
 
 TEST(scene_faults, a_selection_uses_exactly_one_way) {

@@ -156,6 +156,11 @@ TEST(scene, per_link_values_have_other_units) {
   EXPECT_DOUBLE_EQ(links("per = \"link\"\nnormal_stiffness = \"2 N/mm\"").normal_stiffness, 2000);
   EXPECT_DOUBLE_EQ(links("normal_stiffness = \"2 N/mm2\"").normal_stiffness, 2e6);
   EXPECT_THROW(links("per = \"link\"\nnormal_stiffness = \"2 N/mm2\""), SceneError);
+  const std::string zone =
+      "law = \"cohesive_zone\"\nnormal_strength = 1\ntangential_strength = 1\nnormal_stiffness = 1\n";
+  EXPECT_DOUBLE_EQ(*links(zone + "toughness = \"3 uJ/mm\"").toughness, 3e-3);
+  EXPECT_DOUBLE_EQ(*links(zone + "per = \"link\"\ntoughness = \"3 uJ\"").toughness, 3e-6);
+  EXPECT_THROW(links(zone + "per = \"link\"\ntoughness = \"3 uJ/mm\""), SceneError);
 }
 
 TEST(scene, stiffness_and_yield_follow_from_material_and_section) {
