@@ -80,7 +80,7 @@ TEST(SofteningLinks, a_link_pulled_apart_takes_the_energy_of_its_mode_mix_out_of
     const double toughness = 0.5 + 0.25 * B * B;  // Benzeggagh and Kenane, eta = 2
     const int steps = 20000;
     const double du = 3.0 / steps;
-    Field x = field_of(s);
+    Field x = field_of(s.x);
     double work = 0, pull_before = 0;
     for (int k = 1; k <= steps && links.broken() == 0; ++k) {
       for (Index i = 4; i < 8; ++i) x.add(i, du * way);
@@ -108,7 +108,7 @@ TEST(SofteningLinks, what_damage_dissipates_is_no_longer_stored) {
   const Sample s = two_bonded_squares(3);
   const ShellLayout layout(s);
   CohesiveLinks links(layout, softening(s, 0.08, 0.0040));
-  Field x = field_of(s);
+  Field x = field_of(s.x);
   for (Index i = s.cell_begin[1]; i < s.nodes(); ++i) x.y[i] += 0.04;
   const double potential = links.energy(x);
   links.commit(x);
@@ -159,7 +159,7 @@ TEST(SofteningLinks, brittle_links_have_no_arrays_of_it) {
   CohesiveLinks brittle(layout, p);
   EXPECT_LT(brittle.bytes(), with);
   ArraySet frame, restart;
-  brittle.add_output(field_of(s), frame);
+  brittle.add_output(field_of(s.x), frame);
   brittle.save(restart);
   for (const ArraySet* set : {&frame, &restart})
     for (const NamedArray& a : set->all()) EXPECT_EQ(a.name.find("damage"), std::string::npos) << a.name;
@@ -172,7 +172,7 @@ TEST(SofteningLinks, damage_is_not_forgotten_by_a_stage_whose_links_are_brittle)
   CohesiveLinks links(layout, p);
   ArraySet fresh, damaged;
   links.save(fresh);
-  Field x = field_of(s);
+  Field x = field_of(s.x);
   for (Index i = s.cell_begin[1]; i < s.nodes(); ++i) x.y[i] += 0.04;
   links.commit(x);
   links.save(damaged);
@@ -391,8 +391,8 @@ TEST(SofteningLinks, take_toughness_per_length_of_wall_or_per_link_as_they_take_
   for (const char* per : {"length", "link"}) {
     Stage stage = tearing_stage(0.3);
     stage.links["links"].per = per;
-    const auto model = build_model(s, stage, field_of(s));
-    Field x = field_of(s);
+    const auto model = build_model(s, stage, field_of(s.x));
+    Field x = field_of(s.x);
     for (Index i = s.cell_begin[1]; i < s.nodes(); ++i) x.y[i] += 1;
     model->links->commit(x);
     ASSERT_EQ(model->links->breaks().size(), 5u);
@@ -407,7 +407,7 @@ TEST(SofteningLinks, too_little_toughness_is_refused_with_the_least_that_works) 
   Stage stage = tearing_stage(0.01);
   std::string said;
   try {
-    build_model(s, stage, field_of(s));
+    build_model(s, stage, field_of(s.x));
   } catch (const SceneError& error) {
     said = error.what();
   }
@@ -420,12 +420,12 @@ TEST(SofteningLinks, too_little_toughness_is_refused_with_the_least_that_works) 
   Stage tougher = stage;
   tougher.links["links"].toughness = number_after(" toughness = ");
   tougher.links["links"].shear_toughness = number_after("shear_toughness = ");
-  EXPECT_NO_THROW(build_model(s, tougher, field_of(s)));
+  EXPECT_NO_THROW(build_model(s, tougher, field_of(s.x)));
   EXPECT_LT(*tougher.links["links"].shear_toughness, 1.01 * 36 / 300);
   Stage weaker = stage;
   weaker.links["links"].normal_strength = number_after("normal_strength = ");
   weaker.links["links"].tangential_strength = number_after("tangential_strength = ");
-  EXPECT_NO_THROW(build_model(s, weaker, field_of(s)));
+  EXPECT_NO_THROW(build_model(s, weaker, field_of(s.x)));
 }
 
 }  // namespace
