@@ -6,10 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "generator/sample/sample_file.h"
-#include "pipelines/studies/facing_chains.h"
+#include "pipelines/cohesive_zone/grown_crack.h"
 #include "pipelines/studies/study.h"
-#include "postproc/output_file.h"
 
 namespace lamella {
 namespace {
@@ -96,44 +94,6 @@ void one_link(StudyBench& bench) {
 
 // ---- a crack between two beams ----
 
-struct Grown {
-  std::vector<double> time, ratio;           // J / G, at frames
-  double mean = 0, lowest = 0, highest = 0;  // where two links or more are gone
-  double ledger = 0;
-};
-
-/// J s = 2 P theta of two beams that turn by theta each where forces P part them (Paris and Paris), over the toughness.
-Grown grow_crack(StudyBench& bench, double zone) {
-  const FacingChains chains{.segments = 110, .first_link = 36, .radius = 0.1};
-  const Sample sample = make_facing_chains(chains);
-  make_folder(bench.out() / "samples");
-  write_sample(bench.out() / "samples" / "beams.h5", sample);
-  const double toughness = 4e-7, strength = std::sqrt(toughness) / (zone * zone);  // beams.toml
-  const double stiffness =
-      10 * strength * strength / (2 * toughness);  // begins to soften at a tenth of the last opening
-  const Scene scene = bench.scene("beams.toml", {fmt::format("links.normal_strength={}", strength),
-                                                 fmt::format("links.tangential_strength={}", strength),
-                                                 fmt::format("links.normal_stiffness={}", stiffness),
-                                                 fmt::format("links.tangential_stiffness={}", 0.3 * stiffness)});
-  const StudyRun run = bench.run(fmt::format("beams_{:g}", zone), sample, scene);
-  const auto time = run.column("time"), upper = run.column("force_y_open_upper"),
-             lower = run.column("force_y_open_lower"), broken = run.column("broken_links");
-  Grown out;
-  out.lowest = 1e9, out.ledger = run.ledger();
-  int count = 0;
-  for (int f = 0; f < run.reader.frames() && f < static_cast<int>(time.size()); ++f) {
-    const auto x = run.positions(f);
-    const Vec2 first = x[upper_node(chains, 1)] - x[upper_node(chains, 0)];
-    const double ratio = (upper[f] - lower[f]) * std::atan2(-first.y(), first.x()) / toughness;
-    out.time.push_back(time[f]), out.ratio.push_back(ratio);
-    if (broken[f] < 2) continue;
-    ++count, out.mean += ratio;
-    out.lowest = std::min(out.lowest, ratio), out.highest = std::max(out.highest, ratio);
-  }
-  out.mean /= std::max(1, count);
-  return out;
-}
-
 void beams(StudyBench& bench) {
   StudyReport& report = bench.report;
   report.section("A crack between two beams: J is the toughness");
@@ -147,7 +107,7 @@ void beams(StudyBench& bench) {
   ReportTable table{{"(EI G / f^2)^(1/4) in spacings", "mean of J / G", "lowest", "highest"}, {}};
   int colour = 0;
   for (const double zone : bench.small() ? std::vector<double>{5} : std::vector<double>{1.5, 2, 3, 5, 8}) {
-    const Grown grown = grow_crack(bench, zone);
+    const GrownCrack grown = grow_crack(bench, "beams.toml", zone);
     table.rows.push_back({fmt::format("{:g}", zone), fmt::format("{:.4f}", grown.mean),
                           fmt::format("{:.3f}", grown.lowest), fmt::format("{:.3f}", grown.highest)});
     if (zone >= 2) {

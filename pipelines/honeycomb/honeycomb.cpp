@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "pipelines/honeycomb/unit_cell.h"
+#include "pipelines/honeycomb/periodic_scene.h"
 #include "pipelines/studies/study.h"
 #include "postproc/drawing/tissue_drawing.h"
 #include "postproc/output_file.h"
@@ -207,27 +207,6 @@ void gap(StudyBench& bench) {
   report.table(std::move(table));
 }
 
-/// What the cells around the central one do under this stress, as loads for each of their nodes: a scene of its own.
-Scene periodic_scene(const StudyBench& bench, const std::string& name, const std::vector<std::string>& settings,
-                     const UnitCell& cell, const Sample& sample, const Eigen::Matrix2d& stress, double time,
-                     double ramp) {
-  const Scene base = bench.scene("unit_cell.toml", settings);
-  const Eigen::VectorXd u = cell.displacement(cell.strain_of(stress)) / (time - 0.5 * ramp);
-  std::string text = "# Run with";
-  for (const std::string& setting : settings) text += " --set " + setting;
-  text += "\n" + base.text;
-  for (Index k = 0; k < sample.nodes(); ++k)
-    if (k < sample.cell_begin[cell.centre()] || k >= sample.cell_begin[cell.centre() + 1])
-      text += fmt::format(
-          "[[loads]]\nname = \"n{0}\"\nnodes = {{ nodes = [{0}] }}\nvelocity_x = {1:.17g}\nvelocity_y = {2:.17g}\nramp "
-          "= {3:.17g}\n",
-          k, u[2 * k], u[2 * k + 1], ramp);
-  const std::filesystem::path folder = bench.out() / "scenes";
-  make_folder(folder);
-  write_text_file(folder / (name + ".toml"), text);
-  return read_scene(folder / (name + ".toml"), settings);
-}
-
 struct CellBreak {
   double stress = 0, young = 0, ledger = 0;
 };
@@ -242,7 +221,8 @@ CellBreak pull_cell(StudyBench& bench, int n, double k_n, int axis) {
   const std::string name = fmt::format("cell_{}_{:g}_{}", n, k_n, axis == 0 ? "normal" : "along");
   const Eigen::Matrix2d full = 1.1 * lattice.cell.first_break(uniaxial(axis), strength, strength) * uniaxial(axis);
   const auto scene = [&](double time) {
-    return periodic_scene(bench, name, settings, lattice.cell, lattice.sample, full, time, 0.2 * time);
+    return periodic_scene(bench, "unit_cell.toml", name, settings, lattice.cell, lattice.sample, full, time,
+                          0.2 * time);
   };
   const double omega = lowest_frequency_of(lattice.sample, scene(1));
   const double time = (bench.small() ? 100 : 150) * 2 * M_PI / omega;

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "generator/sample/sample_file.h"
+#include "pipelines/links/lap_strength.h"
 #include "pipelines/studies/equilibrium.h"
 #include "pipelines/studies/facing_chains.h"
 #include "pipelines/studies/study.h"
@@ -162,12 +163,6 @@ void blocks(StudyBench& bench) {
 }
 
 // ---- lap shear ----
-
-/// T_c / f_t0 of n tangential links, ratio = k_t / k_s: 2 cosh(mu) = 2 + 2 ratio.
-double lap_strength(int n, double ratio) {
-  const double mu = std::acosh(1 + ratio);
-  return std::sinh(n * mu / 2) / (std::sinh(mu / 2) * std::cosh(mu * (n - 1) / 2));
-}
 
 void lap_shear(StudyBench& bench) {
   StudyReport& report = bench.report;

@@ -7,6 +7,7 @@
 #include <map>
 #include <numbers>
 
+#include "pipelines/ring_core/exact_ring.h"
 #include "pipelines/studies/squeezed_ring.h"
 #include "pipelines/studies/static_ring.h"
 
@@ -15,48 +16,9 @@ namespace {
 
 using std::numbers::pi;
 
-/// The exact ring: extensible elastica with pressure, R = EI = s = 1 (from its boundary-value problem, to 1e-6). Lengths over b0.
-struct Exact {
-  double strain, force, edge, pressure, contact, width, shrinkage, energies;
-};
-struct Thick {
-  double eta, axial;
-  std::vector<Exact> rows;
-};
-const Thick kExact[] = {{0,
-                         4800,
-                         {{.1, 1.173541, 1.173541, 0, 0, 1.083258, .012495, 7.98e-4},
-                          {.2, 2.114380, 2.114380, 0, 0, 1.151526, .046038, 6.04e-4},
-                          {.3, 2.928696, 2.928696, 0, .0386, 1.207366, .096138, 4.76e-4},
-                          {.4, 3.985800, 3.985800, 0, .2574, 1.259285, .164509, 4.41e-4},
-                          {.5, 5.738405, 5.738405, 0, .4761, 1.311203, .253131, 4.82e-4}}},
-                        {1,
-                         4800,
-                         {{.1, 6.44464, 6.44464, 14.7835, 0, 1.07441, 6.160e-3, .690},
-                          {.2, 41.3276, 17.3655, 59.2173, .20232, 1.13516, 2.467e-2, 2.21},
-                          {.3, 149.808, 29.2096, 145.464, .41453, 1.20762, 6.061e-2, 5.26},
-                          {.4, 390.931, 44.2745, 282.817, .61286, 1.28597, 1.178e-1, 8.91},
-                          {.5, 836.199, 63.6651, 480.472, .80393, 1.36574, 2.002e-1, 11.6}}},
-                        {100,
-                         4800,
-                         {{.1, 12.1854, 11.8873, 31.2497, .00477, 1.07418, 1.302e-4, 2.51},
-                          {.2, 107.367, 27.6522, 148.735, .26798, 1.15548, 6.197e-4, 12.1},
-                          {.3, 497.204, 51.3384, 433.100, .51474, 1.27148, 1.805e-3, 39.5},
-                          {.4, 1734.27, 88.5269, 1039.24, .79181, 1.43288, 4.330e-3, 95.7},
-                          {.5, 5379.73, 151.467, 2309.64, 1.13183, 1.66355, 9.624e-3, 193}}},
-                        {1e5,
-                         4800,
-                         {{.1, 12.3142, 11.9562, 31.6152, .00566, 1.07421, 1.317e-7, 2.55},
-                          {.2, 109.186, 27.8712, 151.051, .26916, 1.15605, 6.294e-7, 12.4},
-                          {.3, 509.062, 51.8894, 441.927, .51725, 1.27348, 1.841e-6, 40.9},
-                          {.4, 1794.37, 89.8884, 1068.07, .79793, 1.43853, 4.450e-6, 100},
-                          {.5, 5666.99, 155.059, 2401.93, 1.14740, 1.67863, 1.001e-5, 206}}}};
 /// Thicker walls, h = R / 10: forces at .1 to .5.
 const std::map<double, std::vector<double>> kThickWalls{{1, {2.73238, 12.3720, 40.0764, 101.257, 214.011}},
                                                         {1e5, {4.57213, 29.6868, 130.694, 453.950, 1425.93}}};
-
-/// Stiffness of the shell of a polygon against pressure, of which eta is a multiple.
-double shell(double axial, int nodes) { return axial / (2 * std::cos(pi / nodes)); }
 
 std::string eta_name(double eta) { return eta == 1e5 ? "1e5" : fmt::format("{:g}", eta); }
 std::string about(double eta, double strain) { return fmt::format("eta = {}, strain {:g}", eta_name(eta), strain); }
@@ -67,7 +29,7 @@ double contact_stiffness(double eta) { return eta == 0 ? 1e6 : eta == 1 ? 2e6 : 
 std::vector<std::string> settings(double eta, double axial, int nodes, double strain, double rate) {
   return {fmt::format("sample.shapes.0.segments={}", nodes),
           fmt::format("cells.axial_rigidity={}", axial),
-          fmt::format("cells.core.modulus={:.15g}", eta * shell(axial, nodes)),
+          fmt::format("cells.core.modulus={:.15g}", eta * polygon_shell(axial, nodes)),
           fmt::format("contact.normal_stiffness={}", contact_stiffness(eta)),
           fmt::format("loads.bottom.velocity_y={}", rate),
           fmt::format("loads.top.velocity_y={}", -rate),
@@ -93,7 +55,7 @@ Squeezed squeeze(StudyBench& bench, double eta, double axial, int nodes, double 
   ring.ledger = run.ledger();
   std::vector<double> strains;
   for (double e = 0.1; e < strain + 0.01; e += 0.1) strains.push_back(e);
-  ring.still = static_ring({nodes, axial, eta * shell(axial, nodes)}, strains);
+  ring.still = static_ring({nodes, axial, eta * polygon_shell(axial, nodes)}, strains);
   return ring;
 }
 
@@ -115,14 +77,14 @@ void definition(StudyBench& bench) {
   ReportTable table{{"K", "0.1", "0.2", "0.3", "0.4", "0.5"}, {}};
   const std::pair<std::string, double> definitions[] = {{"EA/2R (circle)", 2400.0},
                                                         {"stiffness_ratio", 2400.0 / radius},
-                                                        {"k_s/s tan(pi/N) (polygon)", shell(4800, nodes)}};
+                                                        {"k_s/s tan(pi/N) (polygon)", polygon_shell(4800, nodes)}};
   for (const auto& [name, core] : definitions) {
     std::vector<std::string> row{name};
     const auto still = static_ring({nodes, 4800, core}, {.1, .2, .3, .4, .5});
     for (std::size_t k = 0; k < still.size(); ++k) {
-      const double error = 100 * (still[k].force / kExact[1].rows[k].force - 1);
+      const double error = 100 * (still[k].force / kExactRings[1].rows[k].force - 1);
       row.push_back(fmt::format("{:+.2f} %", error));
-      if (core == shell(4800, nodes))
+      if (core == polygon_shell(4800, nodes))
         report.compare_absolute(fmt::format("error of F [%], polygon, N = 40, strain {:g}", still[k].strain), error,
                                 stated[k], .06);
     }
@@ -166,9 +128,9 @@ void against_exact(StudyReport& report, const std::vector<Squeezed>& rings) {
   ReportTable edges{{"ring", "edge force, found", "exact", "L_c/b0, found", "exact", "touching nodes reach"}, {}};
   for (const Squeezed& ring : rings) {
     if (ring.nodes != 80 || ring.axial != 4800) continue;
-    const Thick& table =
-        *std::find_if(std::begin(kExact), std::end(kExact), [&](const Thick& t) { return t.eta == ring.eta; });
-    for (const Exact& exact : table.rows) {
+    const RingTable& table = *std::find_if(std::begin(kExactRings), std::end(kExactRings),
+                                           [&](const RingTable& t) { return t.eta == ring.eta; });
+    for (const ExactRing& exact : table.rows) {
       const SqueezedRing found = ring.course.at(exact.strain);
       const std::string which = about(ring.eta, exact.strain);
       report.compare(which + ": F", found.force, exact.force, ring.eta == 0 ? .01 : exact.strain < .15 ? .02 : .005);
@@ -253,9 +215,9 @@ void figures(StudyReport& report, const std::vector<Squeezed>& rings) {
   Chart force{.title = "Force (Fig. 25)", .x_label = "strain 1 - b / b0", .y_label = "F R^2 / EI"};
   Chart energies{.title = "Stretching over bending (Fig. 14)", .x_label = "strain 1 - b / b0", .y_label = "W_s / W_b"};
   force.y_scale = energies.y_scale = Scale::kLogarithmic;
-  for (const Thick& table : kExact) {
+  for (const RingTable& table : kExactRings) {
     const RingCourse& course = find(rings, table.eta).course;
-    const int colour = static_cast<int>(&table - kExact);
+    const int colour = static_cast<int>(&table - kExactRings);
     const std::string label = "eta = " + eta_name(table.eta);
     const auto strain = course.inward(&SqueezedRing::strain);
     std::vector<double> lengths, ratios;
@@ -267,7 +229,7 @@ void figures(StudyReport& report, const std::vector<Squeezed>& rings) {
     length.curves.push_back(line_curve(colour, label, strain, lengths));
     force.curves.push_back(line_curve(colour, label, strain, course.inward(&SqueezedRing::force)));
     energies.curves.push_back(line_curve(colour, label, strain, ratios));
-    for (const Exact& e : table.rows) {
+    for (const ExactRing& e : table.rows) {
       volume.curves.push_back(dotted_curve(colour, "", {e.strain}, {1 - e.shrinkage}));
       length.curves.push_back(dotted_curve(colour, "", {e.strain}, {e.contact}));
       force.curves.push_back(dotted_curve(colour, "", {e.strain}, {e.force}));
@@ -289,8 +251,10 @@ void figures(StudyReport& report, const std::vector<Squeezed>& rings) {
 void claims(StudyReport& report, const std::vector<Squeezed>& rings) {
   report.section("What of the paper holds, and what does not");
   const Squeezed& stiff = find(rings, 1e5);
-  const auto exact = [](double eta) -> const std::vector<Exact>& {
-    return std::find_if(std::begin(kExact), std::end(kExact), [&](const Thick& t) { return t.eta == eta; })->rows;
+  const auto exact = [](double eta) -> const std::vector<ExactRing>& {
+    return std::find_if(std::begin(kExactRings), std::end(kExactRings),
+                        [&](const RingTable& t) { return t.eta == eta; })
+        ->rows;
   };
 
   report.text("**Fig. 21: the volume is constant for eta = 1e5.** It is:");
@@ -303,7 +267,7 @@ void claims(StudyReport& report, const std::vector<Squeezed>& rings) {
       "over 0.1 of strain:");
   for (double eta : {1., 1e5})
     for (std::size_t k = 1; k + 1 < 5; ++k) {
-      const Exact &from = exact(eta)[k], &to = exact(eta)[k + 1];
+      const ExactRing &from = exact(eta)[k], &to = exact(eta)[k + 1];
       const RingCourse& course = find(rings, eta).course;
       const double slope = (length_of(course.at(to.strain)) - length_of(course.at(from.strain))) / 2 / .1;
       report.compare_absolute(
@@ -327,10 +291,10 @@ void claims(StudyReport& report, const std::vector<Squeezed>& rings) {
       if (length_of(course.frames[f]) > .04)
         lengths.push_back(length_of(course.frames[f]) / 2), forces.push_back(course.frames[f].force);
     chart.curves.push_back(line_curve(colour, "eta = " + eta_name(eta), lengths, forces));
-    for (const Exact& e : exact(eta))
+    for (const ExactRing& e : exact(eta))
       if (e.contact > .02) chart.curves.push_back(dotted_curve(colour, "", {e.contact}, {e.force}));
     if (eta == 0) continue;
-    const Exact &from = exact(eta)[2], &to = exact(eta)[3];
+    const ExactRing &from = exact(eta)[2], &to = exact(eta)[3];
     const SqueezedRing a = course.at(.3), b = course.at(.4);
     report.compare_absolute(fmt::format("eta = {}: exponent d ln F / d ln L_c from 0.3 to 0.4", eta_name(eta)),
                             std::log(b.force / a.force) / std::log(length_of(b) / length_of(a)),
@@ -342,7 +306,7 @@ void claims(StudyReport& report, const std::vector<Squeezed>& rings) {
                  16 * 509.062 / (pi * std::pow(1.0345, 2)), .06);
   for (double strain : {.2, .5}) {
     const SqueezedRing r = stiff.course.at(strain);
-    const Exact& e = exact(1e5)[strain < .3 ? 1 : 4];
+    const ExactRing& e = exact(1e5)[strain < .3 ? 1 : 4];
     report.compare(
         fmt::format("eta = 1e5, strain {:g}: force of that cylinder at the same L_c, over the ring's", strain),
         hertz * std::pow(length_of(r), 2) / r.force, 509.062 * std::pow(e.contact / .51725, 2) / e.force, .08);
@@ -372,7 +336,7 @@ void claims(StudyReport& report, const std::vector<Squeezed>& rings) {
       "**Thin walls.** A stadium of constant area has p R^3 / EI = S (1 - b)^2 / 2b^2 and F = 2 p L_c / b0. For eta = "
       "1e5 the ring is within a "
       "few per cent of it:");
-  for (const Exact& e : exact(1e5)) {
+  for (const ExactRing& e : exact(1e5)) {
     if (e.strain < .15) continue;
     const double b = 1 - e.strain;
     const double stadium = 4800 * std::pow((1 - b) / b, 2) * pi / 4 * (1 / b - b);
@@ -417,7 +381,7 @@ void rolling(StudyBench& bench) {
   Scene free = bench.scene("core.toml", settings(100, 4800, 40, .5, .005));
   std::erase_if(free.stages.front().loads, [](const LoadScene& l) { return l.name == "guide"; });
   const RingCourse course = ring_course(bench.run("rolling", sample_of(free), free));
-  const auto still = static_ring({40, 4800, 100 * shell(4800, 40)}, {.1, .2, .3, .4, .5});
+  const auto still = static_ring({40, 4800, 100 * polygon_shell(4800, 40)}, {.1, .2, .3, .4, .5});
   ReportTable table{{"strain", "upper vertex at x / R", "F over that of the symmetric equilibrium"}, {}};
   for (const StaticRing& s : still) {
     const SqueezedRing found = course.at(s.strain);

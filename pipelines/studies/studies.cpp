@@ -12,6 +12,7 @@ void study_links(StudyBench& bench);
 void study_double_cantilever(StudyBench& bench);
 void study_cohesive_zone(StudyBench& bench);
 void study_honeycomb(StudyBench& bench);
+void study_quasi_static(StudyBench& bench);
 void study_friction(StudyBench& bench);
 void study_breakable_walls(StudyBench& bench);
 void study_free_vibration(StudyBench& bench);
@@ -40,6 +41,10 @@ const std::vector<Study>& studies() {
        study_cohesive_zone},
       {"honeycomb", "How stiff is a honeycomb of linked cells, and under which stress does its first link break?",
        study_honeycomb},
+      {"quasi_static",
+       "Does the stepper at rest meet the oracles, follow snap-back, settle under refinement, and give up in good "
+       "order?",
+       study_quasi_static},
       {"friction", "Does friction stick, slide, stop and keep angular momentum as Coulomb's law says?", study_friction},
       {"breakable_walls",
        "When do walls break, where does the energy go, and do cracks run through cells or between them?",
