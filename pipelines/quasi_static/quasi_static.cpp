@@ -13,6 +13,7 @@ void study_quasi_static(StudyBench& bench) {
   snap_back(bench);
   softening(bench);
   spacing(bench);
+  hard_cases(bench);
 }
 
 }  // namespace lamella
