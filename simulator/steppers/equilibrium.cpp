@@ -72,8 +72,11 @@ void EquilibriumSolver::evaluate(const Field& x, Eigen::VectorXd& free) {
     }
   }
   for (const Term* term : other_terms_) term->add_force(x, f_);
-  for (std::size_t i = 0; i < anchor_stiffness_.size(); ++i)
-    f_.add(i, -anchor_stiffness_[i] * (x.at(i) - anchor_.at(i)));
+  for (std::size_t i = 0; i < anchor_stiffness_.size(); ++i) {
+    const Vec2 pull = -anchor_stiffness_[i] * (x.at(i) - anchor_.at(i));
+    largest = std::max(largest, pull.squaredNorm());
+    f_.add(i, pull);
+  }
   scale_ = std::sqrt(largest);
   free = free_.gathered(f_);
 }
@@ -95,7 +98,8 @@ void EquilibriumSolver::refactor(const Field& x) {
   add_anchors(stiffness_, free_, factored_values_);
   if (!analyzed_) factor_.analyze(stiffness_.column_begin(), stiffness_.rows());
   analyzed_ = true;
-  const double largest = stiffness_.largest_diagonal();
+  double largest = stiffness_.largest_diagonal();
+  for (const double d : anchor_stiffness_) largest = std::max(largest, d);
   const auto [left, right] = std::minmax_element(x.x.begin(), x.x.end());
   const auto [low, high] = std::minmax_element(x.y.begin(), x.y.end());
   rounding_ = kRounding * largest * std::max(*right - *left, *high - *low);
