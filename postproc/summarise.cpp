@@ -169,7 +169,8 @@ void add_fracture(Summary& summary, const SummaryInputs& facts) {
     if (links > 0)
       summary.add("fracture",
                   {"share_broken_in_shear", shear / links, "1", "share of broken links with mode mix above pi/4"});
-    summary.add("fracture", {"fracture_energy", energy, "J", "sum of the energies released by the breaks, what damage took before them included"});
+    summary.add("fracture", {"fracture_energy", energy, "J",
+                             "sum of the energies released by the breaks, what damage took before them included"});
   }
   if (facts.aspects.size() > 1) {
     // The frame closest to failure, or the last one; a cell relaxes once the crack has passed.

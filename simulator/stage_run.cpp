@@ -156,6 +156,7 @@ std::vector<std::string> StageRun::summary() const {
   lines.push_back(fmt::format("stage '{}': {}", stage_.name, terms));
   lines.push_back(fmt::format("  {} cells, {} nodes, {} links; {:.1f} MB of terms", sample_.cells(), sample_.nodes(),
                               model_->links ? sample_.links.size() : 0, static_cast<double>(model_->bytes()) / 1e6));
+  say_why(lines);
   lines.push_back(fmt::format("  time step {:.4g} s, {:.0f} % of the stable limit {:.4g} s, set by node {} ({})", dt_,
                               100 * dt_ / stable_.dt, stable_.dt, stable_.node, stable_.limited_by));
   lines.push_back(fmt::format("  {:.4g} s in about {:.4g} steps", duration_, duration_ / dt_));

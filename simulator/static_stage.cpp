@@ -94,6 +94,7 @@ std::vector<std::string> StaticStage::summary() const {
   lines.push_back(fmt::format("stage '{}' at rest: {}", stage_.name, terms));
   lines.push_back(fmt::format("  {} cells, {} nodes, {} links, {} unknowns", sample_.cells(), sample_.nodes(),
                               model_->links ? sample_.links.size() : 0, stepper_->solver().free().size()));
+  say_why(lines);
   const RunScene& run = stage_.run;
   lines.push_back(fmt::format(
       "  {} load steps at least; a force of {:.1g} of the largest may be left; links break {} within "

@@ -753,8 +753,9 @@ const std::vector<Row<RunScene>>& rows() {
                    "inertia, by implicit "
                    "steps of any length (time_step; by default that between two rows of the response); first order and "
                    "damping, second "
-                   "order.",
-       .choices = {"velocity_verlet", "quasi_static", "backward_euler", "generalised_alpha"}},
+                   "order. auto: quasi_static where the load is slow beside the slowest swing of the sample, else "
+                   "velocity_verlet; the summary says why.",
+       .choices = {"velocity_verlet", "quasi_static", "backward_euler", "generalised_alpha", "auto"}},
       {.key = "step_fraction",
        .member = &S::step_fraction,
        .unit = "1",
