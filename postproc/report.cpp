@@ -140,7 +140,6 @@ std::string report_html(const std::string& title, const std::vector<ReportPictur
       rows += fmt::format("<tr><td>{}</td><td class=\"what\">{}</td></tr>\n", escaped(key), escaped(value));
   }
   if (!fact("summary").empty()) html += "<h2>Model</h2>\n<pre>" + escaped(fact("summary")) + "</pre>\n";
-  if (!fact("solver_cost").empty()) html += "<p>" + escaped(fact("solver_cost")) + ".</p>\n";
   if (!rows.empty()) html += "<h2>Provenance</h2>\n<table>\n" + rows + "</table>\n";
   if (!fact("scene").empty()) html += "<h2>Scene</h2>\n<pre>" + escaped(fact("scene")) + "</pre>\n";
   html += "</main></body>\n</html>\n";
