@@ -18,8 +18,6 @@ constexpr double kAccepted = 0.05;
 /// What of the stage needs motion; empty: nothing.
 std::string needs_motion(const Stage& stage) {
   if (!stage.initial.empty()) return "[[initial]] states velocities";
-  for (const auto& [group, cell] : stage.cells)
-    if (cell.break_stress || cell.break_force || cell.break_strain) return "walls break";
   if (!stage.loading && std::none_of(stage.loads.begin(), stage.loads.end(),
                                      [](const LoadScene& load) { return load.velocity_x || load.velocity_y; }))
     return "nothing is held";

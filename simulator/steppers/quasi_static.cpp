@@ -26,6 +26,7 @@ QuasiStatic::QuasiStatic(Model& model, const std::vector<Load>& loads, const Loa
       solver_(model, loads),
       x_(std::move(x)),
       dead_(x_.size()),
+      wall_work_(model.layout),
       start_time_(start_time) {
   for (std::size_t l = 0; l < loads.size(); ++l)
     for (Index i : loads[l].nodes)
@@ -59,7 +60,8 @@ void QuasiStatic::prescribe(double time, Field& x) {
 }
 
 double QuasiStatic::criterion(const Field& x) {
-  return model_.links ? model_.links->most_loaded(x, link_work_).zeta : -1.0;
+  const double links = model_.links ? model_.links->most_loaded(x, link_work_).zeta : -1.0;
+  return model_.rupture ? std::max(links, model_.rupture->most_loaded(x, wall_work_).zeta) : links;
 }
 
 double QuasiStatic::energy(const Field& x) const {
@@ -86,7 +88,9 @@ bool QuasiStatic::hand_over_softened() {
   const std::int64_t first = static_cast<std::int64_t>(breaks_.size());
   for (const Break& softened : model_.links->breaks()) {
     const std::int64_t place = static_cast<std::int64_t>(breaks_.size()) - first;
-    breaks_.push_back({.link = softened, .avalanche = avalanches_, .place = place, .time = time_});
+    BreakAtRest event;
+    event.link = softened;
+    record(event, place);
     model_.links->set_break_time(softened.link, start_time_ + time_);
     if (model_.contacts) model_.contacts->release(softened.link, x_, softened.friction_force);
     works_.fracture += softened.energy;
@@ -277,6 +281,55 @@ void QuasiStatic::take_back() {
   }
 }
 
+void QuasiStatic::record(BreakAtRest event, std::int64_t place) {
+  event.avalanche = avalanches_, event.place = place, event.time = time_;
+  breaks_.push_back(event);
+}
+
+void QuasiStatic::break_most_loaded(std::int64_t place) {
+  const auto link = model_.links ? model_.links->most_loaded(x_, link_work_) : CohesiveLinks::Loaded{};
+  const auto bar = model_.rupture ? model_.rupture->most_loaded(x_, wall_work_) : WallRupture::Loaded{};
+  if (bar.zeta > link.zeta)
+    break_wall(bar, place);
+  else
+    break_link(link.link, place);
+}
+
+// The bar, the hinges at its ends and the core of its cell end; links beside it get another frame, or none; contact loses a segment, and
+// ends meet what they ignored. What all of them held, and hold no more, is the energy of the break.
+void QuasiStatic::break_wall(const WallRupture::Loaded& bar, std::int64_t place) {
+  solver_.forget();
+  const double before = energy(x_);
+  const double now = start_time_ + time_;
+  BreakAtRest event;
+  event.link.link = -1;
+  event.wall = model_.rupture->broken_at(bar, x_, wall_work_);
+  model_.rupture->end(bar.cell, bar.bar, now);
+  double of_links = 0;
+  std::vector<BreakAtRest> without_frame;
+  if (CohesiveLinks* const links = model_.links.get()) {
+    for (const Index l : links->without_tangent(model_.rupture->broken())) {
+      BreakAtRest cut;
+      const double spent = links->dissipated(l);  // by damage: no part of what was held
+      cut.link = links->cut(l, x_, x_);
+      links->set_break_time(l, now);
+      if (model_.contacts) model_.contacts->release(l, x_, cut.link.friction_force);
+      of_links += cut.link.energy - spent;
+      works_.fracture += spent;
+      without_frame.push_back(cut);
+    }
+    links->follow(model_.rupture->broken());
+  }
+  if (model_.contacts) model_.contacts->lose(bar.bar, x_);
+  const double lost = before - energy(x_);
+  potential_ -= lost;
+  event.wall.energy = lost + event.wall.pressure_work - of_links;
+  works_.fracture += event.wall.energy + of_links;
+  works_.pressure += event.wall.pressure_work;
+  record(event, place);
+  for (const BreakAtRest& cut : without_frame) record(cut, place);
+}
+
 void QuasiStatic::break_link(Index link, std::int64_t place) {
   CohesiveLinks& links = *model_.links;
   Contacts* const contacts = model_.contacts.get();
@@ -292,8 +345,7 @@ void QuasiStatic::break_link(Index link, std::int64_t place) {
   }
   works_.fracture += event.link.energy;
   potential_ -= event.link.energy;
-  event.avalanche = avalanches_, event.place = place, event.time = time_;
-  breaks_.push_back(event);
+  record(event, place);
 }
 
 void QuasiStatic::fall(const std::function<bool()>& go_on) {
@@ -302,7 +354,7 @@ void QuasiStatic::fall(const std::function<bool()>& go_on) {
   while (critical_ && go_on()) {
     const std::size_t first = breaks_.size();
     do {
-      break_link(model_.links->most_loaded(x_, link_work_).link, place++);
+      break_most_loaded(place++);
     } while (settings_.all_at_once && criterion(x_) > 0);
     Field x = x_;
     if (!try_at(time_, x)) {

@@ -23,7 +23,8 @@ struct QuasiStaticSettings {
 
 /// A break at rest.
 struct BreakAtRest {
-  Break link;
+  Break link;                  // .link is -1 where a bar of a wall broke
+  WallBreak wall;              // else not set
   std::int64_t avalanche = 0;  // from 0
   std::int64_t place = 0;      // in it, from 0
   double time = 0;             // of the stage [s]
@@ -91,7 +92,10 @@ class QuasiStatic {
   bool hand_over_softened();
   void bring_to_rest();
   void book_pressures(double time);
+  void break_most_loaded(std::int64_t place);
   void break_link(Index link, std::int64_t place);
+  void break_wall(const WallRupture::Loaded& bar, std::int64_t place);
+  void record(BreakAtRest event, std::int64_t place);
   void give_up(const std::string& what, double time);
 
   Model& model_;
@@ -105,6 +109,7 @@ class QuasiStatic {
   Eigen::VectorXd work_;          // scratch
   std::vector<double> reaction_;  // on each of held_, at the accepted configuration [N]
   LinkForces link_work_;
+  ShellScratch wall_work_;
   double start_time_ = 0, time_ = 0;
   double segment_ = 0;         // mean length [m]
   double potential_ = 0;       // of the accepted configuration: energy less the work of dead forces [J]

@@ -125,8 +125,8 @@ TEST(StaticStage, implicit_runs_resume_to_the_same_bits_too) {
   for (const std::string scheme : {"backward_euler", "generalised_alpha"}) {
     const TemporaryFolder folder;
     const Sample tissue = gripped();
-    const Scene scene = pulled({"run.stepper=" + scheme, "output.response=100", "output.frames=20", "loading.strain=0.25",
-                                "drag.rate=20", "stop.separated=false"});
+    const Scene scene = pulled({"run.stepper=" + scheme, "output.response=100", "output.frames=20",
+                                "loading.strain=0.25", "drag.rate=20", "stop.separated=false"});
     run(folder / "whole", tissue, scene);
     std::atomic<bool> stop = false;
     SimulateOptions options;
@@ -192,9 +192,6 @@ TEST(StaticStage, goes_on_from_a_stage_in_time_and_back) {
 TEST(StaticStage, refuses_what_needs_motion) {
   const Sample tissue = gripped();
   Scene scene = pulled();
-  scene.stages[0].cells["cells"].break_force = 1;
-  EXPECT_THROW(start_up_summary(tissue, scene), SceneError);
-  scene = pulled();
   scene.stages[0].initial.emplace_back();
   EXPECT_THROW(start_up_summary(tissue, scene), SceneError);
   EXPECT_THROW(pulled({"run.residual=0"}), SceneError);
