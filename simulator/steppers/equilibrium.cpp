@@ -98,7 +98,7 @@ void EquilibriumSolver::refactor(const Field& x) {
   // A shift that was needed a moment ago is tried a little smaller; most of the time none is.
   for (shift_ = std::max(kLeastShift, 1e-3 * shift_); shift_ <= kMostShift; shift_ *= 30) {
     ++cost_.factorizations;
-    factored_ = factor_.factorize(stiffness_.column_begin(), stiffness_.rows(), factored_values_, shift_ * largest);
+    factored_ = factor_.factorize(factored_values_, shift_ * largest);
     if (factored_) break;
   }
   factor_x_ = x;
