@@ -12,7 +12,7 @@ namespace {
 constexpr int kMostIterations = 400, kMostHalvings = 30;
 constexpr std::size_t kPairs = 12;  // of limited-memory BFGS
 // A factor is made anew where the rate of convergence so far asks for more iterations than this.
-constexpr double kPatience = 20;
+constexpr double kPatience = 7;
 // Over the largest diagonal. Loose fragments make the stiffness singular; this keeps it regular, and moves nothing: the forces say when
 // equilibrium is reached.
 constexpr double kLeastShift = 1e-12, kMostShift = 1;

@@ -77,6 +77,51 @@ bool eliminate(double* f, int size, int width) {
   return true;
 }
 
+// Solutions go through a supernode four columns at a time, so that x is read and written once for four.
+
+/// x := L^-1 x in the supernode's own rows; below, what that takes from the others is subtracted.
+void forward(const float* l, const double* inverse_diagonal, int width, int size, double* x) {
+  int j = 0;
+  for (; j + 4 <= width; j += 4) {
+    const float *a = l + static_cast<std::size_t>(j) * size, *b = a + size, *c = b + size, *d = c + size;
+    const double p = x[j] * inverse_diagonal[j];
+    const double q = (x[j + 1] - a[j + 1] * p) * inverse_diagonal[j + 1];
+    const double r = (x[j + 2] - a[j + 2] * p - b[j + 2] * q) * inverse_diagonal[j + 2];
+    const double u = (x[j + 3] - a[j + 3] * p - b[j + 3] * q - c[j + 3] * r) * inverse_diagonal[j + 3];
+    x[j] = p, x[j + 1] = q, x[j + 2] = r, x[j + 3] = u;
+#pragma omp simd
+    for (int i = j + 4; i < size; ++i) x[i] -= p * a[i] + q * b[i] + r * c[i] + u * d[i];
+  }
+  for (; j < width; ++j) {
+    const float* const a = l + static_cast<std::size_t>(j) * size;
+    const double p = x[j] *= inverse_diagonal[j];
+#pragma omp simd
+    for (int i = j + 1; i < size; ++i) x[i] -= p * a[i];
+  }
+}
+
+/// x := L^-T x in the supernode's own rows, from what is known below.
+void backward(const float* l, const double* inverse_diagonal, int width, int size, double* x) {
+  int j = width;
+  for (; j % 4 != 0; --j) {
+    const float* const a = l + static_cast<std::size_t>(j - 1) * size;
+    double p = 0;
+#pragma omp simd reduction(+ : p)
+    for (int i = j; i < size; ++i) p += x[i] * a[i];
+    x[j - 1] = (x[j - 1] - p) * inverse_diagonal[j - 1];
+  }
+  for (j -= 4; j >= 0; j -= 4) {
+    const float *a = l + static_cast<std::size_t>(j) * size, *b = a + size, *c = b + size, *d = c + size;
+    double p = 0, q = 0, r = 0, u = 0;
+#pragma omp simd reduction(+ : p, q, r, u)
+    for (int i = j + 4; i < size; ++i) p += x[i] * a[i], q += x[i] * b[i], r += x[i] * c[i], u += x[i] * d[i];
+    u = x[j + 3] = (x[j + 3] - u) * inverse_diagonal[j + 3];
+    r = x[j + 2] = (x[j + 2] - r - c[j + 3] * u) * inverse_diagonal[j + 2];
+    q = x[j + 1] = (x[j + 1] - q - b[j + 2] * r - b[j + 3] * u) * inverse_diagonal[j + 1];
+    x[j] = (x[j] - p - a[j + 1] * q - a[j + 2] * r - a[j + 3] * u) * inverse_diagonal[j];
+  }
+}
+
 }  // namespace
 
 bool SparseFactor::factorize(const std::vector<double>& values, double shift) {
@@ -124,59 +169,22 @@ bool SparseFactor::factorize(const std::vector<double>& values, double shift) {
 const Eigen::VectorXd& SparseFactor::solve(const Eigen::VectorXd& b) {
   const int n = plan_.size();
   permuted_.resize(n), solution_.resize(n);
-  double *const y = permuted_.data(), *const t = local_.data();
+  double *const y = permuted_.data(), *const x = local_.data();  // x: at the supernode's rows
   for (int k = 0; k < n; ++k) y[k] = b[plan_.order[k]];
   for (const Supernode& s : plan_.supernodes) {
-    const int size = s.size, width = s.width(), below = s.below();
-    const float* const l = l_.data() + s.values;
-    double* const x = y + s.first;
-    for (int j = 0; j < width; ++j) {
-      const float* const c = l + static_cast<std::size_t>(j) * size;
-      const double v = x[j] *= inverse_diagonal_[s.first + j];
-      for (int i = j + 1; i < width; ++i) x[i] -= c[i] * v;
-    }
-    std::fill_n(t, below, 0.0);
-    int j = 0;
-    for (; j + 4 <= width; j += 4) {
-      const float *a = l + static_cast<std::size_t>(j) * size + width, *c = a + size, *d = c + size, *e = d + size;
-      const double p = x[j], q = x[j + 1], r = x[j + 2], u = x[j + 3];
-#pragma omp simd
-      for (int i = 0; i < below; ++i) t[i] += p * a[i] + q * c[i] + r * d[i] + u * e[i];
-    }
-    for (; j < width; ++j) {
-      const float* a = l + static_cast<std::size_t>(j) * size + width;
-      const double p = x[j];
-#pragma omp simd
-      for (int i = 0; i < below; ++i) t[i] += p * a[i];
-    }
-    for (int i = 0; i < below; ++i) y[s.rows[i]] -= t[i];
+    const int width = s.width(), below = s.below();
+    std::copy_n(y + s.first, width, x);
+    std::fill_n(x + width, below, 0.0);
+    forward(l_.data() + s.values, inverse_diagonal_.data() + s.first, width, s.size, x);
+    std::copy_n(x, width, y + s.first);
+    for (int i = 0; i < below; ++i) y[s.rows[i]] += x[width + i];
   }
   for (auto s = plan_.supernodes.rbegin(); s != plan_.supernodes.rend(); ++s) {
-    const int size = s->size, width = s->width(), below = s->below();
-    const float* const l = l_.data() + s->values;
-    double* const x = y + s->first;
-    for (int i = 0; i < below; ++i) t[i] = y[s->rows[i]];
-    int j = 0;
-    for (; j + 4 <= width; j += 4) {
-      const float *a = l + static_cast<std::size_t>(j) * size + width, *c = a + size, *d = c + size, *e = d + size;
-      double p = 0, q = 0, r = 0, u = 0;
-#pragma omp simd reduction(+ : p, q, r, u)
-      for (int i = 0; i < below; ++i) p += t[i] * a[i], q += t[i] * c[i], r += t[i] * d[i], u += t[i] * e[i];
-      x[j] -= p, x[j + 1] -= q, x[j + 2] -= r, x[j + 3] -= u;
-    }
-    for (; j < width; ++j) {
-      const float* a = l + static_cast<std::size_t>(j) * size + width;
-      double p = 0;
-#pragma omp simd reduction(+ : p)
-      for (int i = 0; i < below; ++i) p += t[i] * a[i];
-      x[j] -= p;
-    }
-    for (int m = width; m-- > 0;) {
-      const float* const c = l + static_cast<std::size_t>(m) * size;
-      double v = x[m];
-      for (int i = m + 1; i < width; ++i) v -= c[i] * x[i];
-      x[m] = v * inverse_diagonal_[s->first + m];
-    }
+    const int width = s->width(), below = s->below();
+    std::copy_n(y + s->first, width, x);
+    for (int i = 0; i < below; ++i) x[width + i] = y[s->rows[i]];
+    backward(l_.data() + s->values, inverse_diagonal_.data() + s->first, width, s->size, x);
+    std::copy_n(x, width, y + s->first);
   }
   for (int k = 0; k < n; ++k) solution_[plan_.order[k]] = y[k];
   return solution_;
