@@ -39,6 +39,12 @@ EquilibriumSolver::EquilibriumSolver(Model& model, const std::vector<Load>& load
   length_ /= std::max<Index>(1, count);
 }
 
+void EquilibriumSolver::set_dead_forces(const Field& f) {
+  dead_ = f;
+  largest_dead_ = 0;
+  for (std::size_t i = 0; i < f.size(); ++i) largest_dead_ = std::max(largest_dead_, f.at(i).squaredNorm());
+}
+
 void EquilibriumSolver::set_anchors(std::vector<double> stiffness, Field positions) {
   if (stiffness.size() != anchor_stiffness_.size()) factored_ = false;
   anchor_stiffness_ = std::move(stiffness);
@@ -54,8 +60,7 @@ void EquilibriumSolver::evaluate(const Field& x, Eigen::VectorXd& free) {
   follow_contacts(x);
   ++cost_.forces;
   f_ = dead_;
-  double largest = 0;
-  for (std::size_t i = 0; i < dead_.size(); ++i) largest = std::max(largest, dead_.at(i).squaredNorm());
+  double largest = largest_dead_;
   const Sample& sample = model_.sample;
   for (const CellBlock& block : model_.layout.blocks()) {
     scratch_.load(sample, block, x);
@@ -135,6 +140,7 @@ bool EquilibriumSolver::relax(Field& x, double tolerance) {
   ++cost_.searches;
   pairs_.clear();
   const Field start = x;
+  Field there;
   Eigen::VectorXd f, next;
   evaluate(x, f);
   double first = measure(f), before = first;
@@ -156,7 +162,6 @@ bool EquilibriumSolver::relax(Field& x, double tolerance) {
     }
     const double farthest = step.cwiseAbs().maxCoeff();
     double alpha = std::min(1.0, kFarthest * length_ / farthest);
-    Field there = x;
     bool found = false;
     for (int halving = 0; halving < kMostHalvings; ++halving) {
       there = x;

@@ -224,6 +224,13 @@ bool SparseFactor::update_by(int first_column, int sign) {
 }
 
 bool SparseFactor::update(const std::vector<int>& rows, const Eigen::MatrixXd& c, int sign) {
+  // L has room for the result where it has all these rows in the column of the first.
+  int head = plan_.size();
+  for (const int row : rows) head = std::min(head, plan_.place[row]);
+  const Supernode& s = plan_.supernodes[plan_.supernode_of[head]];
+  for (const int row : rows)
+    if (const int at = plan_.place[row]; at >= s.end && !std::binary_search(s.rows, s.rows + s.below(), at))
+      return false;
   for (Eigen::Index column = 0; column < c.cols(); ++column) {
     int first = plan_.size();
     for (std::size_t k = 0; k < rows.size(); ++k) {

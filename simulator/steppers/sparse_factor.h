@@ -22,8 +22,8 @@ class SparseFactor {
   bool factorize(const std::vector<double>& values, double shift);
   /// K^-1 b. Shape (n).
   const Eigen::VectorXd& solve(const Eigen::VectorXd& b);
-  /// K += sign * C C^T, where row k of C belongs to row rows[k] of K, and K has entries between all these rows. Returns whether the result
-  /// is positive definite; if not, the factor is of no use.
+  /// K += sign * C C^T, where row k of C belongs to row rows[k] of K. Returns false where L has no room for the result, or that is not
+  /// positive definite; then the factor is of no use.
   bool update(const std::vector<int>& rows, const Eigen::MatrixXd& c, int sign);
   /// Entries of L, with the zeros that are kept.
   double entries() const { return static_cast<double>(plan_.values); }
