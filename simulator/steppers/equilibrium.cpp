@@ -13,7 +13,7 @@ namespace {
 constexpr int kMostIterations = 400, kMostHalvings = 30;
 constexpr std::size_t kPairs = 12;  // of limited-memory BFGS
 // A factor is made anew where the rate of convergence so far asks for more iterations than this.
-constexpr double kPatience = 20;
+constexpr double kPatience = 7;
 // When, and for how long, Newton's method is tried with whole steps.
 constexpr std::array<int, 3> kRushes = {25, 100, 250};
 constexpr int kRushIterations = 25;
@@ -43,6 +43,12 @@ EquilibriumSolver::EquilibriumSolver(Model& model, const std::vector<Load>& load
   length_ /= std::max<Index>(1, count);
 }
 
+void EquilibriumSolver::set_dead_forces(const Field& f) {
+  dead_ = f;
+  largest_dead_ = 0;
+  for (std::size_t i = 0; i < f.size(); ++i) largest_dead_ = std::max(largest_dead_, f.at(i).squaredNorm());
+}
+
 void EquilibriumSolver::set_anchors(std::vector<double> stiffness, Field positions) {
   if (stiffness.size() != anchor_stiffness_.size()) factored_ = false;
   anchor_stiffness_ = std::move(stiffness);
@@ -58,8 +64,7 @@ void EquilibriumSolver::evaluate(const Field& x, Eigen::VectorXd& free) {
   follow_contacts(x);
   ++cost_.forces;
   f_ = dead_;
-  double largest = 0;
-  for (std::size_t i = 0; i < dead_.size(); ++i) largest = std::max(largest, dead_.at(i).squaredNorm());
+  double largest = largest_dead_;
   const Sample& sample = model_.sample;
   for (const CellBlock& block : model_.layout.blocks()) {
     scratch_.load(sample, block, x);
@@ -106,7 +111,7 @@ void EquilibriumSolver::refactor(const Field& x) {
   // A shift that was needed a moment ago is tried a little smaller; most of the time none is.
   for (shift_ = std::max(kLeastShift, 1e-3 * shift_); shift_ <= kMostShift; shift_ *= 30) {
     ++cost_.factorizations;
-    factored_ = factor_.factorize(stiffness_.column_begin(), stiffness_.rows(), factored_values_, shift_ * largest);
+    factored_ = factor_.factorize(factored_values_, shift_ * largest);
     if (factored_) break;
   }
   factor_x_ = x;
@@ -176,6 +181,7 @@ bool EquilibriumSolver::relax(Field& x, double tolerance) {
   pairs_.clear();
   failure_.clear();
   const Field start = x;
+  Field there;
   Eigen::VectorXd f, next;
   evaluate(x, f);
   double first = measure(f), before = first;
@@ -206,7 +212,6 @@ bool EquilibriumSolver::relax(Field& x, double tolerance) {
       slope = step.dot(f);
     }
     double alpha = allowed_share(x, step);
-    Field there = x;
     bool found = false;
     for (int halving = 0; halving < kMostHalvings; ++halving) {
       there = x;

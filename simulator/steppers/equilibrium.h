@@ -20,7 +20,7 @@ class EquilibriumSolver {
   EquilibriumSolver(Model& model, const std::vector<Load>& loads);
 
   /// Forces that do not depend on the positions [N].
-  void set_dead_forces(const Field& f) { dead_ = f; }
+  void set_dead_forces(const Field& f);
   /// d [N/m] of each node, and a [m]. Empty: statics.
   void set_anchors(std::vector<double> stiffness, Field positions);
 
@@ -68,6 +68,7 @@ class EquilibriumSolver {
   SparseFactor factor_;
   ShellScratch scratch_;
   Field dead_, anchor_, f_;
+  double largest_dead_ = 0;  // its square [N^2]
   std::vector<double> anchor_stiffness_;
   bool analyzed_ = false, factored_ = false;
   Field reached_;
