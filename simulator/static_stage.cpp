@@ -244,7 +244,6 @@ std::string StaticStage::run(TrajectoryWriter& writer, const SimulateOptions& op
         "a factor",
         c.searches, c.iterations, c.forces, c.solves, c.factorizations, c.updates);
     writer.set_provenance((index_ == 0 ? "" : fmt::format("stage_{}_", index_)) + "solver_cost", line);
-    if (options.say) options.say("  " + line);
     return why;
   };
   const auto count = [&] { step_ = first_step_ + stepper_->solver().cost().searches; };
