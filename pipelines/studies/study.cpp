@@ -91,10 +91,13 @@ StudyRun StudyBench::attempt(const std::string& name, const Sample& sample, cons
   if (facts.interrupted) throw Interrupted("interrupted; the study starts anew next time");
   ++runs_;
   node_steps_ += static_cast<double>(facts.steps) * sample.nodes();
-  if (say_)
-    say_(fmt::format("  {}: {}; {} steps, {:.2f} s", name, error.empty() ? facts.ended : error, facts.steps,
-                     facts.seconds + facts.frame_seconds));
+  say(fmt::format("  {}: {}; {} steps, {:.2f} s", name, error.empty() ? facts.ended : error, facts.steps,
+                  facts.seconds + facts.frame_seconds));
   return {facts, error, TrajectoryReader(path)};
+}
+
+void StudyBench::say(const std::string& line) const {
+  if (say_) say_(line);
 }
 
 const Study* find_study(const std::filesystem::path& folder) {
