@@ -225,28 +225,34 @@ void tell_the_setup(StudyReport& report, const Ensemble& ensemble, int cells) {
 
 /// What is no error of either: the trend with the rate, and what inertia does.
 void tell_the_difference(StudyReport& report, const std::vector<Judged>& light, const std::vector<Judged>& critical,
-                         const std::vector<Judged>& strong, const std::vector<Judged>& over) {
+                         const std::vector<Judged>& strong, const std::vector<Judged>& over, bool small) {
   const Judged &slow = critical.back(), &calm = over.back(), &lively = light.back();
+  std::string same;
+  for (const Judged& j : over) same += fmt::format("{}{:.0f} %", same.empty() ? "" : ", ", 100 * j.links);
   report.text(fmt::format(
       "**The witness.** The method at rest must not be its own judge. Up to the first break nothing has fallen, and "
       "both must agree but for the rate: from fast to slow the strain at the first break is off by\n"
-      "{} near critical damping, by {} with strong damping. After it they agree if the drag holds back every swing, "
-      "also the fast ones next to a break: overdamped, the peak stress is off by\n"
-      "{} ({} on average at last, of the size of the drag on the way), the work by {}: explicit runs come to the "
-      "answer "
-      "at rest as the rate falls.",
+      "{} near critical damping, by {} with strong damping. After it they come together where drag leaves avalanches "
+      "no "
+      "momentum and the pull is slow beside it: overdamped, the peak stress is off by\n"
+      "{} (at last {} with its sign), the work by {}, and of the links that break in either run {} break in both. "
+      "Explicit runs come to the answer at rest as the rate falls.",
       listed(critical, &Judged::first_strain), listed(strong, &Judged::first_strain), listed(over, &Judged::peak),
-      signed_text(calm.signed_peak), listed(over, &Judged::work)));
-  report.at_most("strain at the first break, near critical damping, slowest pull: error", slow.first_strain, 0.03);
-  report.at_most("peak stress, overdamped, slowest pull: error", calm.peak, 0.06);
-  report.at_most("the same over that of the fastest overdamped pull", calm.peak / over.front().peak, 0.5);
+      signed_text(calm.signed_peak), listed(over, &Judged::work), same));
+  report.at_most("strain at the first break, near critical damping, slowest pull: error", slow.first_strain, 0.02);
+  report.at_most("the same over that of the fastest pull", slow.first_strain / critical.front().first_strain, 0.2);
+  report.at_most("peak stress, overdamped, slowest pull: error", calm.peak, small ? 0.1 : 0.04);
+  if (!small)  // two tiny samples scatter too much for a trend
+    report.at_most("the same over that of the fastest pull", calm.peak / over.front().peak, 0.5);
   report.text(fmt::format(
       "**Where they differ because of physics.** Inertia carries an avalanche past equilibrium: it breaks links that "
       "would hold at rest, and spends on motion what the grips would still have had to do.\n"
       "That does not go away with the rate. At slowdown {:g} near critical damping the first break is off by {} only, "
       "yet the peak stress by {} ({} on average), the work by {} ({}), and {:.0f} % of the links that break in\n"
-      "either run break in both; with light damping at slowdown {:g}: {} ({}), {} ({}), {:.0f} %. Even strong damping "
-      "comes to rest at {} of the peak, however slow, because short swings are damped less than long ones.\n"
+      "either run break in both; with light damping at slowdown {:g}: {} ({}), {} ({}), {:.0f} %. Strong damping still "
+      "leaves "
+      "{} of the peak at its slowest pull: drag damps short swings less than long ones, and a break sets off short "
+      "ones.\n"
       "A tissue in a viscous medium is answered at rest, a dry and ringing one in time.",
       slow.method.slowdown, error_text(slow.first_strain), error_text(slow.peak), signed_text(slow.signed_peak),
       error_text(slow.work), signed_text(slow.signed_work), 100 * slow.links, lively.method.slowdown,
@@ -286,7 +292,8 @@ void tell_the_factor(StudyReport& report, const std::vector<Judged>& rest,
   report.text(fmt::format(
       "**What 3 % of the peak stress costs.** {} Of the explicit sweeps, {} is the first to come below 3 % and stay "
       "there: after {:.2g} s a sample (between two rates by logarithms),\n"
-      "{:.0f} times the reference and {:.0f} times that variant.",
+      "{:.0f} times the reference and {:.0f} times that variant. (Slow pulls were tried on fewer samples than fast "
+      "ones.)",
       cheap, best, least, least / reference.seconds, least / cheapest->seconds));
 }
 
@@ -363,7 +370,7 @@ void accuracy_of_slow_fracture(StudyBench& bench) {
   judged_table(report, rest);
   judged_table(report, time);
   draw(report, rest, time);
-  tell_the_difference(report, light, critical, strong, over);
+  tell_the_difference(report, light, critical, strong, over, small);
   if (!small) tell_the_factor(report, rest, {light, critical, strong, over});
   if (!small) larger_tissues(bench, {400});
   bench.say(fmt::format("slow fracture: {:.0f} s of CPU in all", cpu_seconds() - begin));
