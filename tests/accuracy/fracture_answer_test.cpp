@@ -3,6 +3,9 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
+#include "pipelines/accuracy/measured.h"
 #include "tests/support/temporary_folder.h"
 
 namespace lamella {
@@ -20,6 +23,11 @@ TEST(Overlap, of_nothing_with_nothing_is_whole) {
   EXPECT_DOUBLE_EQ(overlap({}, {}), 1);
   EXPECT_DOUBLE_EQ(overlap({}, {1}), 0);
   EXPECT_DOUBLE_EQ(overlap({1}, {}), 0);
+}
+
+TEST(ErrorText, says_where_there_is_no_answer) {
+  EXPECT_EQ(error_text(0.0321), "3.2 %");
+  EXPECT_EQ(error_text(std::nan("")), "no answer");
 }
 
 class SlowTissue : public testing::Test {
