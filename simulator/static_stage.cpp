@@ -279,7 +279,8 @@ std::string StaticStage::run(TrajectoryWriter& writer, const SimulateOptions& op
           ++frame_;
       }
       if (ended || interrupted()) break;
-      stepper_->load_towards(std::min(end, end * static_cast<double>(frame_) / static_cast<double>(frames)));
+      stepper_->load_towards(std::min(end, end * static_cast<double>(frame_) / static_cast<double>(frames)),
+                             [&] { return !interrupted(); });
       count();
       add_events(writer);
       if (!stepper_->over().empty()) continue;

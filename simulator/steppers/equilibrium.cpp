@@ -19,9 +19,10 @@ constexpr std::array<int, 3> kRushes = {25, 100, 250};
 constexpr int kRushIterations = 25;
 // Over the largest diagonal. Loose fragments make the stiffness singular; this keeps it regular, and moves nothing: the forces say when
 // equilibrium is reached.
-constexpr double kLeastShift = 1e-12, kMostShift = 1;
+constexpr double kMostLeastShift = 1e-7, kMostShift = 1;
+constexpr double kLost = 50;  // way of a loose piece in one iteration, in mean segments
 // Over stiffness times extent: positions are rounded, and with them forces.
-constexpr double kRounding = 8 * 2.2e-16;
+constexpr double kRounding = 64 * 2.2e-16;
 // No node goes further in one iteration, in mean segments.
 constexpr double kFarthest = 0.5;
 
@@ -109,7 +110,7 @@ void EquilibriumSolver::refactor(const Field& x) {
   const auto [low, high] = std::minmax_element(x.y.begin(), x.y.end());
   rounding_ = kRounding * largest * std::max(*right - *left, *high - *low);
   // A shift that was needed a moment ago is tried a little smaller; most of the time none is.
-  for (shift_ = std::max(kLeastShift, 1e-3 * shift_); shift_ <= kMostShift; shift_ *= 30) {
+  for (shift_ = std::max(least_shift_, 1e-3 * shift_); shift_ <= kMostShift; shift_ *= 30) {
     ++cost_.factorizations;
     factored_ = factor_.factorize(factored_values_, shift_ * largest);
     if (factored_) break;
@@ -166,7 +167,7 @@ bool EquilibriumSolver::rush(Field& x, double tolerance) {
     refactor(x);
     if (!factored_) return false;
     // A minimum, and not just any rest.
-    if (there) return shift_ <= kLeastShift;
+    if (there) return shift_ <= least_shift_;
     ++cost_.iterations, ++cost_.solves;
     const Eigen::VectorXd step = factor_.solve(f);
     if (!step.allFinite()) return false;
@@ -210,6 +211,12 @@ bool EquilibriumSolver::relax(Field& x, double tolerance) {
       pairs_.clear();
       step = direction(f);
       slope = step.dot(f);
+    }
+    // Nothing holds what goes so far: rounding alone drives it. A larger shift keeps it where it is.
+    if (step.cwiseAbs().maxCoeff() > kLost * length_ && least_shift_ < kMostLeastShift) {
+      least_shift_ *= 100;
+      factored_ = false;
+      continue;
     }
     double alpha = allowed_share(x, step);
     bool found = false;

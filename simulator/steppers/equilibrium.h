@@ -74,7 +74,8 @@ class EquilibriumSolver {
   Field reached_;
   Field factor_x_;  // where the factor was made
   std::vector<double> factored_values_;
-  double shift_ = 0;  // of the last factor, over the largest diagonal
+  double least_shift_ = 1e-12;  // grows where pieces are loose
+  double shift_ = 0;            // of the last factor, over the largest diagonal
   double scale_ = 0, residual_ = 0;
   double length_ = 0;    // mean segment [m]
   double rounding_ = 0;  // force below which nothing can be told [N]

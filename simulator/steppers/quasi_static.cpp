@@ -12,7 +12,9 @@ namespace lamella {
 namespace {
 
 constexpr int kMostTries = 60;       // of one increment
+constexpr int kMostSearches = 20000;  // on the way through it
 constexpr double kShortest = 1e-12;  // increment, over the longest: below, a jump of the criterion is a jump
+constexpr double kWild = 0.1;        // share of a first-order motion that contacts allow: below, it is not used
 constexpr double kProbe = 1e-4;      // way of a grip from which its tangent is found, in mean segments
 
 }  // namespace
@@ -33,6 +35,7 @@ QuasiStatic::QuasiStatic(Model& model, const std::vector<Load>& loads, const Loa
       for (int c = 0; c < 2; ++c)
         if (loads[l].holds[c]) held_.push_back({i, c, l, x_.at(i)[c]});
   reaction_.assign(held_.size(), 0.0);
+  trusted_ = settings.longest;
   softens_ = model.links && model.links->softens();
   if (softens_) works_.fracture = -model.links->dissipated();
   dissipates_ = model.friction > 0;
@@ -194,10 +197,12 @@ Eigen::VectorXd QuasiStatic::first_motion(double increment) {
   return solver_.response(x_, work_) / probe;
 }
 
-void QuasiStatic::load_towards(double end) {
+void QuasiStatic::load_towards(double end, const std::function<bool()>& go_on) {
   const double target = end - time_ < 1.001 * settings_.longest ? end : time_ + settings_.longest;
-  while (time_ < target && !critical_) {
-    const double h = target - time_;
+  int searches = 0;
+  while (time_ < target && !critical_ && over_.empty() && go_on()) {
+    // Where searches have failed, the next one goes no further than twice the last that did not.
+    const double h = std::min(target - time_, trusted_);
     const Eigen::VectorXd motion = first_motion(h);
     const auto predicted = [&](double step) {
       Field x = x_;
@@ -219,18 +224,29 @@ void QuasiStatic::load_towards(double end) {
     // There, and as far back or on as it takes.
     low = 0, z_low = before, high = 0, z_high = 0;
     Field there = predicted(step);
+    bool wild = false;
     if (model_.contacts) {
-      Field way = there;
-      prescribe(time_ + step, way);
-      for (std::size_t i = 0; i < way.size(); ++i) way.set(i, way.at(i) - x_.at(i));
-      if (const double share = model_.contacts->safe_share(x_, way); share < 1) there = predicted(step *= share);
+      const auto share_of = [&](Field way) {
+        prescribe(time_ + step, way);
+        for (std::size_t i = 0; i < way.size(); ++i) way.set(i, way.at(i) - x_.at(i));
+        return model_.contacts->safe_share(x_, way);
+      };
+      double share = share_of(there);
+      // Just before a contact closes or opens the tangent may promise far too much: then what is free stays where it is.
+      wild = share < kWild;
+      if (wild) share = share_of(x_);
+      step *= share;
+      there = wild ? x_ : predicted(step);
     }
     for (int tries = 0;; ++tries) {
+      if (++searches > kMostSearches)
+        return give_up("no equilibrium under a little more load, in many small steps", time_ + step);
       if (!try_at(time_ + step, there)) {
         step = low + 0.3 * (step - low);
+        trusted_ = step;
         if (tries > kMostTries || step < kShortest * h)
           return give_up("no equilibrium under a little more load", time_ + step);
-        there = predicted(step);
+        there = wild ? x_ : predicted(step);
         high = 0;
         continue;
       }
@@ -238,7 +254,8 @@ void QuasiStatic::load_towards(double end) {
       const bool at_last = high > 0 && high - low < kShortest * h;
       if (z <= settings_.load_tolerance || at_last || tries > kMostTries) {
         const double left_before = softens_ ? works_.loads + works_.pressure - energy(x_) : 0.0;
-        accept(step == h ? target : time_ + step, std::move(there));
+        accept(step == h && h == target - time_ ? target : time_ + step, std::move(there));
+        trusted_ = std::max(trusted_, 2 * step);
         if (softens_) works_.released += std::max(0.0, works_.loads + works_.pressure - energy(x_) - left_before);
         bring_to_rest();
         critical_ = z >= -settings_.load_tolerance;

@@ -49,8 +49,9 @@ class QuasiStatic {
 
   /// Finds the first equilibrium, under the loads of the present time. Throws SolverError.
   void settle();
-  /// One increment of load towards `end`, at most until a link reaches its criterion. Throws SolverError where no equilibrium is found.
-  void load_towards(double end);
+  /// One increment of load towards `end`, at most until a link reaches its criterion. `go_on` is asked on the way. Throws SolverError where no
+  /// equilibrium is found.
+  void load_towards(double end, const std::function<bool()>& go_on);
   /// A link is at its criterion: there is a break to come before the load may grow.
   bool critical() const { return critical_; }
   /// Breaks links at this load until all that are left hold. `go_on` is asked after each equilibrium. Where the settings say `follow`:
@@ -68,7 +69,7 @@ class QuasiStatic {
   Field load_force_on_nodes() const;
   const EquilibriumSolver& solver() const { return solver_; }
   /// See EquilibriumSolver::forget.
-  void forget() { solver_.forget(); }
+  void forget() { solver_.forget(), trusted_ = settings_.longest; }
 
   void save(ArraySet& restart) const;
   void restore(const ArraySet& restart);
@@ -112,6 +113,7 @@ class QuasiStatic {
   ShellScratch wall_work_;
   double start_time_ = 0, time_ = 0;
   double segment_ = 0;         // mean length [m]
+  double trusted_ = 0;         // increment of time that a search may ask for [s]
   double potential_ = 0;       // of the accepted configuration: energy less the work of dead forces [J]
   std::vector<double> lever_;  // of prescribed pressures, at the accepted configuration [J/Pa]
   bool dissipates_ = false;    // committing history lowers the potential: walls flow, or contacts rub

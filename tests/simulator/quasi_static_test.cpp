@@ -32,7 +32,7 @@ struct StaticRig {
   /// Up to the end, or until it is over.
   void run() {
     while (stepper->time() < 1 && stepper->over().empty()) {
-      stepper->load_towards(1);
+      stepper->load_towards(1, [] { return true; });
       if (stepper->critical()) stepper->fall([] { return true; });
     }
   }
@@ -100,7 +100,7 @@ TEST(QuasiStatic, links_break_at_their_criterion_and_none_is_left_beyond_it) {
   LinkForces work;
   std::size_t breaks = 0;
   while (rig.stepper->time() < 1) {
-    rig.stepper->load_towards(1);
+    rig.stepper->load_towards(1, [] { return true; });
     if (!rig.stepper->critical()) continue;
     // The load of a break is exact, ...
     EXPECT_NEAR(rig.model->links->most_loaded(rig.stepper->x(), work).zeta, 0, 1e-4);
