@@ -17,6 +17,9 @@ constexpr double kPatience = 7;
 // When, and for how long, Newton's method is tried with whole steps.
 constexpr std::array<int, 3> kRushes = {25, 100, 250};
 constexpr int kRushIterations = 25;
+// There: iterations of conjugate gradients at most, and what they may leave.
+constexpr int kGradients = 60;
+constexpr double kSolved = 1e-10;
 // Over the largest diagonal. Loose fragments make the stiffness singular; this keeps it regular, and moves nothing: the forces say when
 // equilibrium is reached.
 constexpr double kMostLeastShift = 1e-7, kMostShift = 1;
@@ -155,6 +158,30 @@ double EquilibriumSolver::allowed_share(const Field& x, const Eigen::VectorXd& s
   return share * model_.contacts->safe_share(x, way);
 }
 
+// The factor is kept in single precision: where soft and stiff lie far apart, conjugate gradients bring the digits that it lacks.
+Eigen::VectorXd EquilibriumSolver::tangent_solution(const Eigen::VectorXd& f) {
+  const int n = stiffness_.size();
+  const Eigen::Map<const Eigen::SparseMatrix<double>> lower(n, n, static_cast<Eigen::Index>(factored_values_.size()),
+                                                            stiffness_.column_begin().data(), stiffness_.rows().data(),
+                                                            factored_values_.data());
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(n), left = f, z = factor_.solve(left), p = z;
+  double energy = left.dot(z);
+  ++cost_.solves;
+  for (int k = 0; k < kGradients && left.norm() > kSolved * f.norm(); ++k) {
+    const Eigen::VectorXd kp = lower.selfadjointView<Eigen::Lower>() * p;
+    const double stiff = p.dot(kp);
+    if (!(stiff > 0)) break;
+    const double alpha = energy / stiff;
+    x += alpha * p, left -= alpha * kp;
+    z = factor_.solve(left);
+    ++cost_.solves;
+    const double next = left.dot(z);
+    p = z + next / energy * p;
+    energy = next;
+  }
+  return x;
+}
+
 // Newton's method as it stands in books: a new tangent and a whole step each time, uphill too. Where something is stiff (a core that keeps its
 // area, walls that keep their length while they turn far) every straight step strains it, and a search that may only go downhill creeps;
 // here the next step takes that strain back.
@@ -168,8 +195,8 @@ bool EquilibriumSolver::rush(Field& x, double tolerance) {
     if (!factored_) return false;
     // A minimum, and not just any rest.
     if (there) return shift_ <= least_shift_;
-    ++cost_.iterations, ++cost_.solves;
-    const Eigen::VectorXd step = factor_.solve(f);
+    ++cost_.iterations;
+    const Eigen::VectorXd step = tangent_solution(f);
     if (!step.allFinite()) return false;
     free_.add(step, allowed_share(x, step), x);
     evaluate(x, f);

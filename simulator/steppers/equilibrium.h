@@ -54,6 +54,7 @@ class EquilibriumSolver {
  private:
   void refactor(const Field& x);
   bool rush(Field& x, double tolerance);
+  Eigen::VectorXd tangent_solution(const Eigen::VectorXd& f);
   double allowed_share(const Field& x, const Eigen::VectorXd& step);
   void add_anchors(const StiffnessMatrix& k, const FreeComponents& free, std::vector<double>& values) const;
   Eigen::VectorXd direction(const Eigen::VectorXd& f);
