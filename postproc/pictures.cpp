@@ -251,11 +251,9 @@ Paths draw_energy_ledger(const std::filesystem::path& stem, const EnergyBudget& 
   };
   add(budget.work, "work", {kInk, 1.6, {5, 3}});
   add(budget.stored, "stored", {viridis(0.2), 1.7, {}});
-  static const std::vector<std::pair<std::string, Colour>> kColours{{"kinetic", {0.20, 0.63, 0.75}},
-                                                                    {"damping", {0.55, 0.57, 0.62}},
-                                                                    {"friction", {0.64, 0.42, 0.72}},
-                                                                    {"plastic", {0.20, 0.62, 0.36}},
-                                                                    {"fracture", {0.85, 0.25, 0.17}}};
+  static const std::vector<std::pair<std::string, Colour>> kColours{
+      {"kinetic", {0.20, 0.63, 0.75}}, {"damping", {0.55, 0.57, 0.62}},  {"friction", {0.64, 0.42, 0.72}},
+      {"plastic", {0.20, 0.62, 0.36}}, {"fracture", {0.85, 0.25, 0.17}}, {"released", {0.55, 0.57, 0.62}}};
   for (const EnergyBudget::Entry& sink : budget.sinks)
     for (const auto& [name, colour] : kColours)
       if (sink.name == name) add(sink.value, name, {colour, 1.5, {}});

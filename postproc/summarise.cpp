@@ -169,7 +169,8 @@ void add_fracture(Summary& summary, const SummaryInputs& facts) {
     if (links > 0)
       summary.add("fracture",
                   {"share_broken_in_shear", shear / links, "1", "share of broken links with mode mix above pi/4"});
-    summary.add("fracture", {"fracture_energy", energy, "J", "sum of the energies released by the breaks, what damage took before them included"});
+    summary.add("fracture", {"fracture_energy", energy, "J",
+                             "sum of the energies released by the breaks, what damage took before them included"});
   }
   if (facts.aspects.size() > 1) {
     // The frame closest to failure, or the last one; a cell relaxes once the crack has passed.
@@ -191,11 +192,17 @@ void add_fracture(Summary& summary, const SummaryInputs& facts) {
 void add_accuracy(Summary& summary, const SummaryInputs& facts) {
   const EnergyBudget& budget = facts.budget;
   if (budget.time.empty()) return;
-  summary.add(
-      "accuracy",
-      {"ledger_residual", budget.residual, "1",
-       "largest over the rows of |work - stored - kinetic - damping - friction - plastic - fracture| over the largest "
-       "work so far"});
+  summary.add("accuracy", {"ledger_residual", budget.residual, "1",
+                           "largest over the rows of |work - stored - kinetic - damping - friction - plastic - "
+                           "fracture - released| over the "
+                           "largest work so far"});
+  if (facts.reader->provenance().contains("solver_cost")) {
+    double left = 0;
+    for (const double unbalanced : response_column(facts.reader->response(), "unbalanced"))
+      left = std::max(left, unbalanced);
+    summary.add("accuracy", {"largest_residual", left, "1",
+                             "largest force that an equilibrium has left, over the largest internal force then"});
+  }
   summary.add("accuracy", {"largest_work", budget.largest_work, "J", "largest work done on the sample"});
   double kinetic = 0, stored = 0;
   const double until = facts.setup ? facts.constants.time_at_peak : budget.time.back();

@@ -122,6 +122,14 @@ double StiffnessMatrix::largest_diagonal() const {
   return largest;
 }
 
+Eigen::SparseMatrix<double> assembled_stiffness(const Model& model, const FreeComponents& free, const Field& x) {
+  StiffnessMatrix k(free);
+  k.assemble([&](StiffnessSink& sink) {
+    for (const Term* term : model.terms()) term->add_stiffness(x, sink);
+  });
+  return k.full();
+}
+
 Eigen::SparseMatrix<double> StiffnessMatrix::lower() const {
   return Eigen::Map<const Eigen::SparseMatrix<double>>(size(), size(), static_cast<Eigen::Index>(rows_.size()),
                                                        column_begin_.data(), rows_.data(), values_.data());

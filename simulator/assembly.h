@@ -49,8 +49,9 @@ class StiffnessMatrix final : public StiffnessSink {
   const std::vector<int>& rows() const { return rows_; }
   const std::vector<double>& values() const { return values_; }
   double largest_diagonal() const;
-  /// The same as a matrix of Eigen's; its lower triangle.
+  /// The same as a matrix of Eigen's: its lower triangle, or all of it.
   Eigen::SparseMatrix<double> lower() const;
+  Eigen::SparseMatrix<double> full() const { return lower().selfadjointView<Eigen::Lower>(); }
 
  private:
   void make_pattern(std::vector<std::pair<Index, Index>> pairs);
@@ -63,5 +64,8 @@ class StiffnessMatrix final : public StiffnessSink {
   std::vector<double> values_;
   std::vector<std::pair<Index, Index>> missing_;  // (column node, row node) outside the pattern
 };
+
+/// d2W / dx2 of all terms together over the free components [N/m].
+Eigen::SparseMatrix<double> assembled_stiffness(const Model& model, const FreeComponents& free, const Field& x);
 
 }  // namespace lamella

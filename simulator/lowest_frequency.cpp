@@ -5,6 +5,8 @@
 #include <cmath>
 #include <random>
 
+#include "simulator/assembly.h"
+
 namespace lamella {
 namespace {
 
@@ -16,44 +18,17 @@ constexpr double kConverged = 1e-4;  // relative change of the frequency
 // Over the largest eigenvalue of the system. The shift keeps the matrix regular where shells are free.
 constexpr double kShift = 1e-10, kRigid = 1e-9;
 
-/// Collects the blocks whose coordinates are free, scaled to unit masses: M^(-1/2) K M^(-1/2).
-class FreeBlocks final : public StiffnessSink {
- public:
-  FreeBlocks(const std::vector<int>& place, const std::vector<double>& inverse_mass)
-      : place_(place), inverse_mass_(inverse_mass) {}
-  void add(Index i, Index j, const Eigen::Matrix2d& block) override {
-    const double scale = std::sqrt(inverse_mass_[i] * inverse_mass_[j]);
-    for (int a = 0; a < 2; ++a)
-      for (int b = 0; b < 2; ++b) {
-        const int row = place_[2 * i + a], column = place_[2 * j + b];
-        if (row >= 0 && column >= 0) entries.emplace_back(row, column, scale * block(a, b));
-      }
-  }
-  std::vector<Eigen::Triplet<double>> entries;
-
- private:
-  const std::vector<int>& place_;
-  const std::vector<double>& inverse_mass_;
-};
-
 }  // namespace
 
 std::optional<double> lowest_frequency(const Model& model, const std::vector<Load>& loads, const Field& x) {
-  std::vector<int> place(2 * x.size(), 0);
-  for (const Load& load : loads)
-    for (Index i : load.nodes)
-      for (int c = 0; c < 2; ++c)
-        if (load.holds[c]) place[2 * i + c] = -1;
-  int size = 0;
-  for (int& p : place)
-    if (p == 0) p = size++;
+  const FreeComponents free(x.size(), loads);
+  const int size = free.size();
   const int vectors = std::min(kVectors, size);
   if (vectors == 0) return std::nullopt;
 
-  FreeBlocks blocks(place, model.inverse_mass);
-  for (const Term* term : model.terms()) term->add_stiffness(x, blocks);
-  Sparse k(size, size);
-  k.setFromTriplets(blocks.entries.begin(), blocks.entries.end());
+  Eigen::VectorXd to_unit_mass(size);
+  for (int row = 0; row < size; ++row) to_unit_mass[row] = std::sqrt(model.inverse_mass[free.node_of(row)]);
+  const Sparse k = to_unit_mass.asDiagonal() * assembled_stiffness(model, free, x) * to_unit_mass.asDiagonal();
   Eigen::VectorXd row_sums = Eigen::VectorXd::Zero(size);
   for (int column = 0; column < size; ++column)
     for (Sparse::InnerIterator it(k, column); it; ++it) row_sums[it.row()] += std::abs(it.value());

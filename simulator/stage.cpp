@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "simulator/choose_stepper.h"
 #include "simulator/stage_run.h"
 #include "simulator/static_stage.h"
 
@@ -9,9 +10,14 @@ namespace lamella {
 
 std::unique_ptr<StageDriver> make_stage(const Sample& sample, const Scene& scene, int stage, const ArraySet& start,
                                         StageStart how) {
-  if (scene.stages[stage].run.stepper == "quasi_static")
-    return std::make_unique<StaticStage>(sample, scene, stage, start, how);
-  return std::make_unique<StageRun>(sample, scene, stage, start, how);
+  const StepperChoice choice = choose_stepper(sample, scene.stages[stage]);
+  std::unique_ptr<StageDriver> driver;
+  if (choice.stepper == "quasi_static")
+    driver = std::make_unique<StaticStage>(sample, scene, stage, start, how);
+  else
+    driver = std::make_unique<StageRun>(sample, scene, stage, start, how);
+  driver->chosen_ = choice.why;
+  return driver;
 }
 
 void describe_gauge(const Gauge& gauge, const Stage& stage, const std::string& prefix, Provenance& p) {

@@ -26,6 +26,16 @@ class StageDriver {
                           const std::vector<std::string>& columns, RunFacts& facts) = 0;
   /// State at the last frame, for the stage that continues this one.
   virtual const ArraySet& last() const = 0;
+
+ protected:
+  /// Why this driver, where the scene leaves it to the program; a line of the summary.
+  void say_why(std::vector<std::string>& summary) const {
+    if (!chosen_.empty()) summary.push_back("  " + chosen_);
+  }
+
+ private:
+  friend std::unique_ptr<StageDriver> make_stage(const Sample&, const Scene&, int, const ArraySet&, StageStart);
+  std::string chosen_;
 };
 
 /// The driver that run.stepper asks for. `start`: arrays of a restart, or of the last frame of the stage that this one continues; empty:

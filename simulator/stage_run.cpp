@@ -10,6 +10,9 @@
 #include "generator/sample/errors.h"
 #include "simulator/health.h"
 #include "simulator/initial.h"
+#include "simulator/steppers/backward_euler.h"
+#include "simulator/steppers/generalised_alpha.h"
+#include "simulator/steppers/velocity_verlet.h"
 
 namespace lamella {
 
@@ -51,7 +54,13 @@ StageRun::StageRun(const Sample& sample, const Scene& scene, int stage, const Ar
   load_columns_ = load_columns(loads_);
   gauge_ = measure_gauge(sample, stage_, loads_);
   if (stage_.loading) course_.emplace(*stage_.loading, gauge_);
-  stepper_ = std::make_unique<VelocityVerlet>(*model_, loads_, state_, stage_.run.threads);
+  const RunScene& asked = stage_.run;
+  if (asked.stepper == "backward_euler")
+    stepper_ = std::make_unique<BackwardEuler>(*model_, loads_, state_, asked.residual);
+  else if (asked.stepper == "generalised_alpha")
+    stepper_ = std::make_unique<GeneralisedAlpha>(*model_, loads_, state_, asked.residual, asked.spectral_radius);
+  else
+    stepper_ = std::make_unique<VelocityVerlet>(*model_, loads_, state_, asked.threads);
 
   stops_.emplace(stage_, *model_, loads_, state_.x);
   start_time_ = state_.time;
@@ -83,7 +92,8 @@ StageRun::StageRun(const Sample& sample, const Scene& scene, int stage, const Ar
   for (const auto& history : model_->pressure_histories)
     model_->core->set_pressure(history.cell, history.at(state_.time - start_time_));
   plan_step();
-  if (how != StageStart::kResumed) set_initial_velocities(*model_, stage_, loads_, dt_, state_);
+  if (how != StageStart::kResumed)
+    set_initial_velocities(*model_, stage_, loads_, stepper_->implicit() ? 0.0 : dt_, state_);
 }
 
 // The step is a whole fraction of the time between rows, and changes only when the bound asks for a smaller one: a constant
@@ -93,7 +103,9 @@ void StageRun::plan_step() {
   if (model_->contacts) model_->contacts->rebuild(state_.x);
   stable_ = stable_time_step(*model_, state_.x, stepper_->fully_held());
   double allowed = stage_.run.step_fraction * stable_.dt;
-  if (stage_.run.time_step) {
+  if (stepper_->implicit()) {
+    allowed = stage_.run.time_step.value_or(row_interval_);
+  } else if (stage_.run.time_step) {
     if (*stage_.run.time_step > stable_.dt)
       throw SolverError(
           fmt::format("t = {:.6g} s: run.time_step = {:.4g} s exceeds the stable limit {:.4g} s (node {}: {}); "
@@ -144,6 +156,7 @@ std::vector<std::string> StageRun::summary() const {
   lines.push_back(fmt::format("stage '{}': {}", stage_.name, terms));
   lines.push_back(fmt::format("  {} cells, {} nodes, {} links; {:.1f} MB of terms", sample_.cells(), sample_.nodes(),
                               model_->links ? sample_.links.size() : 0, static_cast<double>(model_->bytes()) / 1e6));
+  say_why(lines);
   lines.push_back(fmt::format("  time step {:.4g} s, {:.0f} % of the stable limit {:.4g} s, set by node {} ({})", dt_,
                               100 * dt_ / stable_.dt, stable_.dt, stable_.node, stable_.limited_by));
   lines.push_back(fmt::format("  {:.4g} s in about {:.4g} steps", duration_, duration_ / dt_));
@@ -205,7 +218,8 @@ void StageRun::set_loads(double dt) {
     if (load.grip)
       load.factor = factor;
     else  // velocities hold between steps, forces at them
-      load.factor = load.ramp > 0 ? smooth_ramp((since + (load.pushes ? 0.0 : 0.5 * dt)) / load.ramp) : 1.0;
+      load.factor =
+          load.ramp > 0 ? smooth_ramp((since + (load.pushes ? stepper_->push_time() : 0.5) * dt) / load.ramp) : 1.0;
   }
 }
 

@@ -10,7 +10,7 @@
 #include "simulator/simulate.h"
 #include "simulator/stage.h"
 #include "simulator/steppers/stable_time_step.h"
-#include "simulator/steppers/velocity_verlet.h"
+#include "simulator/steppers/stepper.h"
 #include "simulator/stop_conditions.h"
 
 namespace lamella {
@@ -46,7 +46,7 @@ class StageRun final : public StageDriver {
   std::vector<LoadColumn> load_columns_;
   Gauge gauge_;
   std::optional<LoadingCourse> course_;
-  std::unique_ptr<VelocityVerlet> stepper_;
+  std::unique_ptr<Stepper> stepper_;
   StableStep stable_;
   bool resumed_ = false;
 

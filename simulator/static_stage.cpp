@@ -58,9 +58,6 @@ void StaticStage::refuse_what_moves() const {
           fmt::format("run.stepper: 'quasi_static' has no {}; take it out, or use 'velocity_verlet'", what));
   };
   refuse(!stage_.initial.empty(), "velocities, and [[initial]] asks for some");
-  for (const auto& [group, cell] : stage_.cells)
-    refuse(cell.break_stress || cell.break_force || cell.break_strain,
-           fmt::format("walls that break, and [{}] has a strength", group == "cells" ? group : "cells." + group));
   if (!faults.empty()) throw SceneError(std::move(faults));
 }
 
@@ -83,7 +80,10 @@ void StaticStage::columns(std::vector<std::string>& names, std::vector<std::stri
   bool plastic = false;
   for (const ShellTerm* term : model_->shell_terms()) plastic = plastic || term->plastic();
   if (plastic) add("plastic", "J");
-  if (model_->links && model_->links->breakable()) add("fracture", "J"), add("released", "J"), add("broken_links", "1");
+  const bool links_break = model_->links && (model_->links->breakable() || model_->rupture);
+  if (links_break || model_->rupture) add("fracture", "J"), add("released", "J");
+  if (links_break) add("broken_links", "1");
+  if (model_->rupture) add("broken_bars", "1");
   add("residual", "1"), add("unbalanced", "1");
 }
 
@@ -94,6 +94,7 @@ std::vector<std::string> StaticStage::summary() const {
   lines.push_back(fmt::format("stage '{}' at rest: {}", stage_.name, terms));
   lines.push_back(fmt::format("  {} cells, {} nodes, {} links, {} unknowns", sample_.cells(), sample_.nodes(),
                               model_->links ? sample_.links.size() : 0, stepper_->solver().free().size()));
+  say_why(lines);
   const RunScene& run = stage_.run;
   lines.push_back(fmt::format(
       "  {} load steps at least; a force of {:.1g} of the largest may be left; links break {} within "
@@ -117,20 +118,19 @@ void StaticStage::describe(Provenance& p) const {
 }
 
 void StaticStage::add_events(TrajectoryWriter& writer) {
-  for (const BreakAtRest& b : stepper_->take_breaks())
-    writer.add_event({.time = start_time_ + b.time,
-                      .step = step_,
-                      .link = b.link.link,
-                      .position = b.link.position,
-                      .f_n = b.link.f_n,
-                      .f_t = b.link.f_t,
-                      .mode_mix = model_->links->mode_mix_of(b.link),
-                      .energy = b.link.energy,
-                      .strain = path_->strain(b.time),
-                      .stage = index_,
-                      .avalanche = b.avalanche,
-                      .place = b.place,
-                      .released = b.released});
+  for (const BreakAtRest& b : stepper_->take_breaks()) {
+    Event event{.time = start_time_ + b.time, .step = step_};
+    if (b.link.link >= 0) {
+      event.link = b.link.link, event.position = b.link.position, event.energy = b.link.energy;
+      event.f_n = b.link.f_n, event.f_t = b.link.f_t, event.mode_mix = model_->links->mode_mix_of(b.link);
+    } else {
+      event.link = -1, event.bar = b.wall.bar, event.position = b.wall.position;
+      event.f_n = b.wall.tension, event.energy = b.wall.energy;
+    }
+    event.strain = path_->strain(b.time), event.stage = index_;
+    event.avalanche = b.avalanche, event.place = b.place, event.released = b.released;
+    writer.add_event(event);
+  }
 }
 
 /// Weighs the present configuration. Returns why the stage ends here, if it does.
@@ -168,15 +168,17 @@ std::optional<std::string> StaticStage::add_row(TrajectoryWriter& writer, const 
     put(c.name,
         c.displacement ? mean_displacement(sample_, x, loads_[c.load], c.component) : force[c.load][c.component]);
   const int broken = model_->links ? static_cast<int>(model_->links->broken()) : 0;
+  const int broken_bars = model_->rupture ? static_cast<int>(model_->rupture->broken().count()) : 0;
   put("time", time), put("stage", index_), put("work", in - base_[0]);
   put("friction", friction), put("plastic", flow), put("fracture", works.fracture), put("released", works.released);
-  put("broken_links", broken), put("residual", residual), put("unbalanced", stepper_->solver().residual());
+  put("broken_links", broken), put("broken_bars", broken_bars), put("residual", residual),
+      put("unbalanced", stepper_->solver().residual());
   writer.add_response(values);
   facts.residual = std::max(facts.residual, residual);
   ++rows_;
   return stops_->reason({.since = since,
                          .stress = stress_,
-                         .broken = broken,
+                         .broken = broken + broken_bars,
                          .unbalanced = stepper_->solver().residual(),
                          .first = rows_ == 1,
                          .load_force = force,
@@ -223,6 +225,7 @@ void StaticStage::report(const SimulateOptions& options) const {
   p.done = (index_ + std::min(1.0, stepper_->time() / path_->duration())) / p.stages;
   p.time = start_time_ + stepper_->time(), p.strain = path_->strain(stepper_->time()), p.stress = stress_;
   p.broken = model_->links ? static_cast<int>(model_->links->broken()) : 0;
+  if (model_->rupture) p.broken += static_cast<int>(model_->rupture->broken().count());
   options.progress(p);
 }
 
@@ -241,7 +244,6 @@ std::string StaticStage::run(TrajectoryWriter& writer, const SimulateOptions& op
         "a factor",
         c.searches, c.iterations, c.forces, c.solves, c.factorizations, c.updates);
     writer.set_provenance((index_ == 0 ? "" : fmt::format("stage_{}_", index_)) + "solver_cost", line);
-    if (options.say) options.say("  " + line);
     return why;
   };
   const auto count = [&] { step_ = first_step_ + stepper_->solver().cost().searches; };
@@ -277,7 +279,8 @@ std::string StaticStage::run(TrajectoryWriter& writer, const SimulateOptions& op
           ++frame_;
       }
       if (ended || interrupted()) break;
-      stepper_->load_towards(std::min(end, end * static_cast<double>(frame_) / static_cast<double>(frames)));
+      stepper_->load_towards(std::min(end, end * static_cast<double>(frame_) / static_cast<double>(frames)),
+                             [&] { return !interrupted(); });
       count();
       add_events(writer);
       if (!stepper_->over().empty()) continue;

@@ -231,13 +231,15 @@ struct StopScene {
 
 /// [run]
 struct RunScene {
-  std::string stepper = "velocity_verlet";  // velocity_verlet | quasi_static
-  double step_fraction = 0.5;               // of the stable limit (row sums) [1]
-  std::optional<double> time_step;          // [s]; refused above the limit
-  double slowdown = 1;                      // prescribed motions, ramps and times take this many times longer [1]
-  std::optional<double> accuracy;           // accepted error of the largest load [1]
+  std::string stepper =
+      "velocity_verlet";            // velocity_verlet | quasi_static | backward_euler | generalised_alpha | auto
+  double step_fraction = 0.5;       // of the stable limit (row sums) [1]
+  std::optional<double> time_step;  // [s]; refused above the limit
+  double slowdown = 1;              // prescribed motions, ramps and times take this many times longer [1]
+  std::optional<double> accuracy;   // accepted error of the largest load [1]
   int threads = 1;
-  // quasi_static
+  double spectral_radius = 0.8;  // of generalised_alpha at infinite frequency [1]
+  // quasi_static; residual of implicit steps too
   double residual = 1e-4;                  // force that may be left, over the largest internal force [1]
   double load_tolerance = 1e-4;            // of a link's criterion, within which it breaks [1]
   int load_steps = 100;                    // at least, over the whole stage

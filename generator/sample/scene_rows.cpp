@@ -747,10 +747,15 @@ const std::vector<Row<RunScene>>& rows() {
   static const std::vector<Row<S>> list{
       {.key = "stepper",
        .member = &S::stepper,
-       .sentence =
-           "velocity_verlet: explicit, in time, with inertia. quasi_static: equilibrium under a growing load, and the "
-           "exact load of every break; time then only says where loads are.",
-       .choices = {"velocity_verlet", "quasi_static"}},
+       .sentence = "velocity_verlet: explicit, in time, with inertia. quasi_static: equilibrium under a growing load, "
+                   "and the exact load of "
+                   "every break; time then only says where loads are. backward_euler, generalised_alpha: in time, with "
+                   "inertia, by implicit "
+                   "steps of any length (time_step; by default that between two rows of the response); first order and "
+                   "damping, second "
+                   "order. auto: quasi_static where the load is slow beside the slowest swing of the sample, else "
+                   "velocity_verlet; the summary says why.",
+       .choices = {"velocity_verlet", "quasi_static", "backward_euler", "generalised_alpha", "auto"}},
       {.key = "step_fraction",
        .member = &S::step_fraction,
        .unit = "1",
@@ -760,7 +765,7 @@ const std::vector<Row<RunScene>>& rows() {
        .member = &S::time_step,
        .unit = "s",
        .range = kPositive,
-       .sentence = "A fixed one, instead of step_fraction; refused where it is not stable.",
+       .sentence = "A fixed one, instead of step_fraction; refused where an explicit scheme is not stable with it.",
        .fallback = "from step_fraction"},
       {.key = "slowdown",
        .member = &S::slowdown,
@@ -781,11 +786,18 @@ const std::vector<Row<RunScene>>& rows() {
        .member = &S::threads,
        .range = between(1, 256),
        .sentence = "The result does not depend on it."},
+      {.key = "spectral_radius",
+       .member = &S::spectral_radius,
+       .unit = "1",
+       .range = kFraction,
+       .sentence =
+           "generalised_alpha: share of a swing that is too fast for the step which is left after one: 1 all, 0 none."},
       {.key = "residual",
        .member = &S::residual,
        .unit = "1",
        .range = kInsideFraction,
-       .sentence = "quasi_static: largest force that may be left, over the largest internal force."},
+       .sentence = "quasi_static and implicit steps: largest force that may be left, over the largest internal (or "
+                   "inertia) force."},
       {.key = "load_tolerance",
        .member = &S::load_tolerance,
        .unit = "1",

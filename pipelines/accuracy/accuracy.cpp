@@ -47,6 +47,7 @@ void study_accuracy(StudyBench& bench) {
   accuracy_of_plastic_ring(bench);
   accuracy_of_double_cantilever(bench, estimates);
   accuracy_of_tissue(bench);
+  accuracy_of_slow_fracture(bench);
   judge_estimates(bench.report, estimates, bench.small());
 }
 

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "generator/sample/errors.h"
+#include "simulator/choose_stepper.h"
 #include "simulator/loading.h"
 #include "simulator/lowest_frequency.h"
 
@@ -20,13 +21,11 @@ constexpr double kPeriodsFor1Percent = 40;
 constexpr double kMostPeriods = 400;  // to begin with
 constexpr double kMostSlower = 4;     // from run to run
 constexpr double kStepFraction = 0.8;
+// At rest: tolerances and load steps to begin with. Halving the tolerances and doubling the steps halves what walls that flow and links that
+// soften leave; elastic walls with brittle links gain more.
+constexpr double kCoarsest = 1e-3;
+constexpr int kFewestSteps = 25;
 constexpr double kMargin = 1.25;  // on the slowdown that a first-order error asks for
-
-Field positions_of(const Sample& sample) {
-  Field x(sample.x.size());
-  for (std::size_t i = 0; i < x.size(); ++i) x.set(i, sample.x[i]);
-  return x;
-}
 
 bool is_damped(const Stage& stage) {
   if (stage.drag && stage.drag->rate > 0) return true;
@@ -51,7 +50,17 @@ double prescribed_time(const Sample& sample, const Stage& stage) {
 
 }  // namespace
 
+Choice Choice::times(double factor) const {
+  Choice more = *this;
+  (more.fineness ? *more.fineness : more.slowdown) *= factor;
+  return more;
+}
+
 std::vector<std::string> Choice::settings() const {
+  if (fineness)
+    return {fmt::format("run.residual={:.6g}", kCoarsest / *fineness),
+            fmt::format("run.load_tolerance={:.6g}", kCoarsest / *fineness),
+            fmt::format("run.load_steps={}", static_cast<int>(std::ceil(kFewestSteps * *fineness)))};
   std::vector<std::string> list{fmt::format("run.slowdown={:.6g}", slowdown)};
   if (step_fraction) list.push_back(fmt::format("run.step_fraction={:.6g}", *step_fraction));
   if (drag) list.push_back(fmt::format("drag.rate={:.6g}", *drag));
@@ -59,6 +68,9 @@ std::vector<std::string> Choice::settings() const {
 }
 
 std::string Choice::sentence() const {
+  if (fineness)
+    return fmt::format("tolerances {:.2g}, at least {:.0f} load steps", kCoarsest / *fineness,
+                       std::ceil(kFewestSteps * *fineness));
   std::string text = fmt::format("slowdown {:.3g}, ", slowdown);
   text += step_fraction ? fmt::format("step {:.2g} of the stable one", *step_fraction) : "step of the scene";
   text += drag ? fmt::format(", drag {:.3g} 1/s", *drag) : ", damping of the scene";
@@ -77,9 +89,14 @@ Choice first_choice(const Sample& sample, const Scene& scene, double accepted) {
                     scene.path.string()));
   Choice choice;
   const Stage& first = scene.stages.front();
+  const auto at_rest = [&](const Stage& stage) { return choose_stepper(sample, stage).stepper == "quasi_static"; };
+  if (std::all_of(scene.stages.begin(), scene.stages.end(), at_rest)) {
+    choice.fineness = 2;
+    return choice;
+  }
   if (!first.run.time_step) choice.step_fraction = kStepFraction;
   {
-    const Field x = positions_of(sample);
+    const Field x = field_of(sample.x);
     const std::unique_ptr<Model> model = build_model(sample, first, x);
     choice.frequency = lowest_frequency(*model, build_loads(sample, first), x);
   }
@@ -97,9 +114,7 @@ bool within_reach(double estimated, double accepted, int runs) {
 }
 
 Choice slower(const Choice& choice, double estimated, double accepted) {
-  Choice next = choice;
-  next.slowdown *= std::clamp(kMargin * estimated / accepted, 2.0, kMostSlower);
-  return next;
+  return choice.times(std::clamp(kMargin * estimated / accepted, 2.0, kMostSlower));
 }
 
 }  // namespace lamella

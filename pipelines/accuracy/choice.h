@@ -15,7 +15,13 @@ struct Choice {
   std::optional<double> drag;           // [1/s]; empty: the scene says how it is damped
   std::optional<double> step_fraction;  // of the stable step; empty: the scene fixes the step
   double slowdown = 1;
+  // A scene at rest has no pace: how many times finer than the coarsest its tolerances and load steps are; empty: a scene in time.
+  std::optional<double> fineness;
 
+  /// By what the error falls: pace or fineness.
+  double effort() const { return fineness.value_or(slowdown); }
+  /// With so many times the effort.
+  Choice times(double factor) const;
   /// As `--set` takes them: the same run, by hand.
   std::vector<std::string> settings() const;
   /// One sentence for the user.

@@ -11,10 +11,11 @@ struct Measured {
   std::string setting;    // "N = 80, rate 0.01, drag 2"
   std::string group;      // curve of the chart that it belongs to
   double knob = 0;        // the one that a sweep turns
-  double error = 0;       // relative, against the exact answer
+  double error = 0;       // relative, against the exact answer; NaN where the run has no answer
   double node_steps = 0;  // nodes x steps
   double seconds = 0;     // of the stepping loop
   double ledger = 0;      // largest residual of the energy ledger
+  bool joined = true;     // with its neighbours in the chart: they differ in one knob that is turned in steps
 };
 
 /// Fills the costs from a run.
@@ -23,9 +24,16 @@ Measured measured(const StudyRun& run, const std::string& setting, const std::st
 /// A table of a sweep: setting, error, node-steps, seconds, ledger.
 void sweep_table(StudyReport& report, const std::vector<Measured>& sweep);
 
+/// "3.2 %", or "no answer".
+std::string error_text(double error);
+
 /// Work-precision charts, error over node-steps and over seconds: NAME_steps and NAME_seconds.
 void work_precision(StudyReport& report, const std::string& name, const std::string& title,
                     const std::vector<Measured>& all);
+
+/// The one over seconds alone, called NAME, where costs are not all counted in node-steps; with curves besides.
+void precision_over_seconds(StudyReport& report, const std::string& name, const std::string& title,
+                            const std::vector<Measured>& all, const std::vector<Curve>& besides);
 
 /// The cheapest setting (in node-steps) for 5 %, 1 % and 0.1 %, or the best that was reached.
 void recommend(StudyReport& report, const std::string& what, const std::vector<Measured>& all);
@@ -44,5 +52,6 @@ void accuracy_of_ring(StudyBench& bench, std::vector<EstimatedError>& estimates)
 void accuracy_of_plastic_ring(StudyBench& bench);
 void accuracy_of_double_cantilever(StudyBench& bench, std::vector<EstimatedError>& estimates);
 void accuracy_of_tissue(StudyBench& bench);
+void accuracy_of_slow_fracture(StudyBench& bench);
 
 }  // namespace lamella

@@ -8,19 +8,11 @@
 
 #include "generator/sample/errors.h"
 #include "postproc/drawing/tissue_drawing.h"
+#include "simulator/assembly.h"
 #include "simulator/steppers/stable_time_step.h"
 
 namespace lamella::hard_cases {
 namespace {
-
-class SparseSink final : public StiffnessSink {
- public:
-  void add(Index i, Index j, const Eigen::Matrix2d& block) override {
-    for (int a = 0; a < 2; ++a)
-      for (int b = 0; b < 2; ++b) entries.emplace_back(2 * i + a, 2 * j + b, block(a, b));
-  }
-  std::vector<Eigen::Triplet<double>> entries;
-};
 
 /// What of the strength of one link a force of this direction leaves: the factor by which it reaches the criterion
 /// s f_n / f_n0 + (s f_t / f_t0)^2 = 1.
@@ -69,43 +61,30 @@ Tension pull_statically(const Sample& sample, Stage stage) {
   stage.contact.reset();  // facing walls just touch: whether one does is rounding
   const Field x = field_of(sample.x);
   const auto model = build_model(sample, stage, x);
-  SparseSink sink;
-  for (const Term* term : model->terms()) term->add_stiffness(x, sink);
+  const FreeComponents all(x.size(), {});
+  const Eigen::SparseMatrix<double> k = assembled_stiffness(*model, all, x);
 
   // Held components are known: bottom 0, top a unit along y.
-  const Index n = 2 * sample.nodes();
-  std::vector<Index> free_index(static_cast<std::size_t>(n), -1);
-  Eigen::VectorXd u = Eigen::VectorXd::Zero(n);
+  Eigen::VectorXd u = Eigen::VectorXd::Zero(all.size()), top = u;
   double low = 0, high = 0, lows = 0, highs = 0;
-  Index free_count = 0;
+  Load grips;
+  grips.holds[0] = grips.holds[1] = true;
   for (Index i = 0; i < sample.nodes(); ++i) {
-    const bool bottom = sample.side[i] & kBottom, top = sample.side[i] & kTop;
-    if (bottom) low += sample.x[i].y(), ++lows;
-    if (top) high += sample.x[i].y(), ++highs, u[2 * i + 1] = 1;
-    if (!bottom && !top) free_index[2 * i] = free_count++, free_index[2 * i + 1] = free_count++;
+    if (sample.side[i] & kBottom) low += sample.x[i].y(), ++lows;
+    if (sample.side[i] & kTop) high += sample.x[i].y(), ++highs, top[2 * i + 1] = 1;
+    if (sample.side[i] & (kBottom | kTop)) grips.nodes.push_back(i);
   }
-  std::vector<Eigen::Triplet<double>> kept;
-  Eigen::VectorXd load = Eigen::VectorXd::Zero(free_count);
-  for (const auto& e : sink.entries) {
-    const Index row = free_index[e.row()], column = free_index[e.col()];
-    if (row < 0) continue;
-    if (column >= 0)
-      kept.emplace_back(row, column, e.value());
-    else
-      load[row] -= e.value() * u[e.col()];
-  }
-  Eigen::SparseMatrix<double> k(free_count, free_count);
-  k.setFromTriplets(kept.begin(), kept.end());
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(k);
+  const FreeComponents free(x.size(), {grips});
+  const auto field_of_rows = [](const Eigen::VectorXd& rows) {
+    return field_from(std::vector<double>(rows.data(), rows.data() + rows.size()));
+  };
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(assembled_stiffness(*model, free, x));
   if (solver.info() != Eigen::Success) throw SolverError("the stiffness of the sample is singular");
-  const Eigen::VectorXd moved = solver.solve(load);
-  for (Index d = 0; d < n; ++d)
-    if (free_index[d] >= 0) u[d] = moved[free_index[d]];
+  Field moved = field_of_rows(top);
+  free.add(solver.solve(free.gathered(field_of_rows(-(k * top)))), 1, moved);
+  u = all.gathered(moved);
 
-  double grip = 0;  // of the top, per unit of opening [N/m]
-  for (const auto& e : sink.entries)
-    if (free_index[e.row()] < 0 && e.row() % 2 == 1 && (sample.side[e.row() / 2] & kTop))
-      grip += e.value() * u[e.col()];
+  const double grip = top.dot(k * u);  // of the top, per unit of opening [N/m]
   const double length = high / highs - low / lows, width = sample.box.size().x() * stage.cell("cells").depth;
   Tension out;
   out.modulus = grip * length / width;

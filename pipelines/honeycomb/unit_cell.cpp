@@ -4,6 +4,7 @@
 
 #include "generator/sample/errors.h"
 #include "postproc/quantities/cell_stress.h"
+#include "simulator/assembly.h"
 
 namespace lamella {
 namespace {
@@ -45,7 +46,7 @@ UnitCell::UnitCell(const Sample& patch, const Stage& stage)
         if ((patch.x[k] - origin_[c] - patch.x[first + i] + origin_[centre_]).norm() < 1e-6) twin_[k] = i;
   if (walls[centre_] != 6 || patch.nodes() != nodes * patch.cells() || std::count(twin_.begin(), twin_.end(), -1) > 0)
     throw SceneError("unit cell: needs a patch of equal hexagons with one that is surrounded by six others");
-  stiffness_ = assembled_stiffness(*model_, rest_);
+  stiffness_ = assembled_stiffness(*model_, FreeComponents(rest_.size(), {}), rest_);
   Eigen::MatrixXd folded = Eigen::MatrixXd::Zero(2 * nodes, 2 * nodes);
   for (Index row = 0; row < 2 * nodes; ++row)
     for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(stiffness_, 2 * first + row); it; ++it)

@@ -72,7 +72,11 @@ void report(const RunFacts& facts, const fs::path& trajectory, Progress& progres
   if (facts.interrupted)
     throw Interrupted(fmt::format("interrupted; what was computed is in {}; go on with the same command and --resume",
                                   trajectory.string()));
-  progress.say(fmt::format("  {}; {} steps, {:.3g} node-steps/s", facts.ended, facts.steps, facts.node_steps));
+  if (const SolverCost& cost = facts.static_cost; cost.searches > 0)
+    progress.say(fmt::format("  {}; {} equilibria by {} iterations, with {} factorisations", facts.ended, cost.searches,
+                             cost.iterations, cost.factorizations));
+  else
+    progress.say(fmt::format("  {}; {} steps, {:.3g} node-steps/s", facts.ended, facts.steps, facts.node_steps));
 }
 
 void simulate_to(const Sample& sample, const Scene& scene, const fs::path& out, Progress& progress) {

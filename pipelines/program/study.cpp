@@ -154,7 +154,8 @@ int accuracy_command(const fs::path& folder, const StudyArguments& arguments, Ve
       "points, stiffness of walls and\n"
       "contact. All is computed in double precision; there is no other. Node-steps are mass points times steps; "
       "seconds are those of the stepping loop on one\n"
-      "core. `lamella run SCENE --accuracy 1%` chooses by these tables, and states the error of its answer.\n\n" +
+      "core, other work on the machine left out. `lamella run SCENE --accuracy 1%` chooses by these tables, and states "
+      "the error of its answer.\n\n" +
           read_binary_file(arguments.out / "section.md"));
   Progress(verbosity).say(arguments.page.string());
   return status;

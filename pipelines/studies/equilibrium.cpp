@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "generator/sample/errors.h"
+#include "simulator/assembly.h"
 
 namespace lamella {
 namespace {
@@ -21,45 +22,17 @@ constexpr double kRounding = 1e-14, kStalled = 1e-9;
 constexpr double kCriterion = 1e-12, kCriterionStalled = 1e-5;
 
 double& component(Field& f, int k) { return k % 2 == 0 ? f.x[k / 2] : f.y[k / 2]; }
-double component(const Field& f, int k) { return k % 2 == 0 ? f.x[k / 2] : f.y[k / 2]; }
-
-/// Collects 2 x 2 blocks; `place` says which row a component has, -1: none.
-class Blocks final : public StiffnessSink {
- public:
-  explicit Blocks(const std::vector<int>& place) : place_(place) {}
-  void add(Index i, Index j, const Eigen::Matrix2d& block) override {
-    for (int a = 0; a < 2; ++a)
-      for (int b = 0; b < 2; ++b) {
-        const int row = place_[2 * i + a], column = place_[2 * j + b];
-        if (row >= 0 && column >= 0) entries_.emplace_back(row, column, block(a, b));
-      }
-  }
-  Sparse matrix(int size) const {
-    Sparse k(size, size);
-    k.setFromTriplets(entries_.begin(), entries_.end());
-    return k;
-  }
-
- private:
-  const std::vector<int>& place_;
-  std::vector<Eigen::Triplet<double>> entries_;
-};
 
 /// A model under dead loads, seen by its free components alone.
 class FreeSystem {
  public:
   FreeSystem(const Model& model, const std::vector<Load>& loads, double factor, std::size_t nodes)
-      : model_(model), terms_(model.terms()), dead_(nodes), place_(2 * nodes, 0) {
+      : model_(model), terms_(model.terms()), dead_(nodes), free_(nodes, loads) {
     for (const Load& load : loads)
-      for (std::size_t k = 0; k < load.nodes.size(); ++k) {
-        if (load.pushes) dead_.add(load.nodes[k], factor * load.force[k]);
-        for (int c = 0; c < 2; ++c)
-          if (load.holds[c]) place_[2 * load.nodes[k] + c] = -1;
-      }
-    for (std::size_t k = 0; k < place_.size(); ++k)
-      if (place_[k] == 0) place_[k] = static_cast<int>(free_.size()), free_.push_back(static_cast<int>(k));
+      if (load.pushes)
+        for (std::size_t k = 0; k < load.nodes.size(); ++k) dead_.add(load.nodes[k], factor * load.force[k]);
   }
-  int size() const { return static_cast<int>(free_.size()); }
+  int size() const { return free_.size(); }
 
   double potential(const Field& x) const {
     double sum = 0;
@@ -70,17 +43,11 @@ class FreeSystem {
   Eigen::VectorXd force(const Field& x) const {
     Field f = dead_;
     for (const Term* term : terms_) term->add_force(x, f);
-    Eigen::VectorXd out(size());
-    for (int k = 0; k < size(); ++k) out[k] = component(f, free_[k]);
-    return out;
+    return free_.gathered(f);
   }
-  Sparse stiffness(const Field& x) const {
-    Blocks blocks(place_);
-    for (const Term* term : terms_) term->add_stiffness(x, blocks);
-    return blocks.matrix(size());
-  }
+  Sparse stiffness(const Field& x) const { return assembled_stiffness(model_, free_, x); }
   Field moved(Field x, const Eigen::VectorXd& by) const {
-    for (int k = 0; k < size(); ++k) component(x, free_[k]) += by[k];
+    free_.add(by, 1, x);
     return x;
   }
 
@@ -88,7 +55,7 @@ class FreeSystem {
   const Model& model_;
   std::vector<Term*> terms_;
   Field dead_;
-  std::vector<int> place_, free_;
+  FreeComponents free_;
 };
 
 /// Solves K u = f, with K shifted until it is positive definite: then u points downhill.
@@ -125,14 +92,6 @@ std::pair<double, Index> most_loaded(const Model& model, const Field& x) {
 }
 
 }  // namespace
-
-Sparse assembled_stiffness(const Model& model, const Field& x) {
-  std::vector<int> place(2 * x.size());
-  for (std::size_t k = 0; k < place.size(); ++k) place[k] = static_cast<int>(k);
-  Blocks blocks(place);
-  for (const Term* term : model.terms()) term->add_stiffness(x, blocks);
-  return blocks.matrix(static_cast<int>(place.size()));
-}
 
 Equilibrium find_equilibrium(const Model& model, const std::vector<Load>& loads, double factor, Field x) {
   const FreeSystem system(model, loads, factor, x.size());
@@ -183,7 +142,7 @@ StaticBreak find_first_break(const Model& model, const std::vector<Load>& loads,
     for (const Load& load : loads)
       for (Index i : load.nodes)
         for (int c = 0; c < 2; ++c)
-          if (load.holds[c]) component(x, 2 * i + c) = component(rest, 2 * i + c) + factor * load.velocity[c];
+          if (load.holds[c]) component(x, 2 * i + c) = rest.at(i)[c] + factor * load.velocity[c];
     x = find_equilibrium(model, loads, factor, std::move(x)).x;
     const auto [criterion, link] = most_loaded(model, x);
     const double off = criterion - 1;

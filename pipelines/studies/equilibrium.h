@@ -9,9 +9,6 @@
 
 namespace lamella {
 
-/// d2W / dx2 of all terms together [N/m]; row 2 i + c is component c of node i.
-Eigen::SparseMatrix<double> assembled_stiffness(const Model& model, const Field& x);
-
 struct Equilibrium {
   Field x;                // [m]
   double unbalanced = 0;  // largest component of the force that is left on what is free [N]

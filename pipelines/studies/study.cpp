@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
+#include <ctime>
 
 #include "generator/generate.h"
 #include "generator/sample/errors.h"
@@ -82,8 +84,14 @@ StudyRun StudyBench::attempt(const std::string& name, const Sample& sample, cons
   std::string error;
   {
     TrajectoryWriter writer(path, sample, {});
+    const auto start = std::chrono::steady_clock::now();
+    const std::clock_t cpu = std::clock();
     try {
       facts = simulate(sample, scene, writer, options);
+      // The machine may have other work: what counts is the share of the time in which this process was at it.
+      const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      const double own = static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
+      if (own < wall) facts.seconds *= own / wall, facts.frame_seconds *= own / wall;
     } catch (const SolverError& gave_up) {
       error = gave_up.what();
     }
@@ -91,10 +99,13 @@ StudyRun StudyBench::attempt(const std::string& name, const Sample& sample, cons
   if (facts.interrupted) throw Interrupted("interrupted; the study starts anew next time");
   ++runs_;
   node_steps_ += static_cast<double>(facts.steps) * sample.nodes();
-  if (say_)
-    say_(fmt::format("  {}: {}; {} steps, {:.2f} s", name, error.empty() ? facts.ended : error, facts.steps,
-                     facts.seconds + facts.frame_seconds));
+  say(fmt::format("  {}: {}; {} steps, {:.2f} s", name, error.empty() ? facts.ended : error, facts.steps,
+                  facts.seconds + facts.frame_seconds));
   return {facts, error, TrajectoryReader(path)};
+}
+
+void StudyBench::say(const std::string& line) const {
+  if (say_) say_(line);
 }
 
 const Study* find_study(const std::filesystem::path& folder) {

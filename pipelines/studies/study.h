@@ -64,6 +64,9 @@ class StudyBench {
   StudyRun attempt(const std::string& name, const std::string& file, const std::vector<std::string>& settings = {});
   StudyRun attempt(const std::string& name, const Sample& sample, const Scene& scene);
 
+  /// A line for whoever watches.
+  void say(const std::string& line) const;
+
   /// Sums over all runs so far.
   double node_steps() const { return node_steps_; }
   int runs() const { return runs_; }

@@ -13,15 +13,19 @@ namespace {
 constexpr int kMostIterations = 400, kMostHalvings = 30;
 constexpr std::size_t kPairs = 12;  // of limited-memory BFGS
 // A factor is made anew where the rate of convergence so far asks for more iterations than this.
-constexpr double kPatience = 20;
+constexpr double kPatience = 7;
 // When, and for how long, Newton's method is tried with whole steps.
 constexpr std::array<int, 3> kRushes = {25, 100, 250};
 constexpr int kRushIterations = 25;
+// There: iterations of conjugate gradients at most, and what they may leave.
+constexpr int kGradients = 60;
+constexpr double kSolved = 1e-10;
 // Over the largest diagonal. Loose fragments make the stiffness singular; this keeps it regular, and moves nothing: the forces say when
 // equilibrium is reached.
-constexpr double kLeastShift = 1e-12, kMostShift = 1;
+constexpr double kMostLeastShift = 1e-7, kMostShift = 1;
+constexpr double kLost = 50;  // way of a loose piece in one iteration, in mean segments
 // Over stiffness times extent: positions are rounded, and with them forces.
-constexpr double kRounding = 8 * 2.2e-16;
+constexpr double kRounding = 64 * 2.2e-16;
 // No node goes further in one iteration, in mean segments.
 constexpr double kFarthest = 0.5;
 
@@ -43,6 +47,12 @@ EquilibriumSolver::EquilibriumSolver(Model& model, const std::vector<Load>& load
   length_ /= std::max<Index>(1, count);
 }
 
+void EquilibriumSolver::set_dead_forces(const Field& f) {
+  dead_ = f;
+  largest_dead_ = 0;
+  for (std::size_t i = 0; i < f.size(); ++i) largest_dead_ = std::max(largest_dead_, f.at(i).squaredNorm());
+}
+
 void EquilibriumSolver::set_anchors(std::vector<double> stiffness, Field positions) {
   if (stiffness.size() != anchor_stiffness_.size()) factored_ = false;
   anchor_stiffness_ = std::move(stiffness);
@@ -58,8 +68,7 @@ void EquilibriumSolver::evaluate(const Field& x, Eigen::VectorXd& free) {
   follow_contacts(x);
   ++cost_.forces;
   f_ = dead_;
-  double largest = 0;
-  for (std::size_t i = 0; i < dead_.size(); ++i) largest = std::max(largest, dead_.at(i).squaredNorm());
+  double largest = largest_dead_;
   const Sample& sample = model_.sample;
   for (const CellBlock& block : model_.layout.blocks()) {
     scratch_.load(sample, block, x);
@@ -72,8 +81,11 @@ void EquilibriumSolver::evaluate(const Field& x, Eigen::VectorXd& free) {
     }
   }
   for (const Term* term : other_terms_) term->add_force(x, f_);
-  for (std::size_t i = 0; i < anchor_stiffness_.size(); ++i)
-    f_.add(i, -anchor_stiffness_[i] * (x.at(i) - anchor_.at(i)));
+  for (std::size_t i = 0; i < anchor_stiffness_.size(); ++i) {
+    const Vec2 pull = -anchor_stiffness_[i] * (x.at(i) - anchor_.at(i));
+    largest = std::max(largest, pull.squaredNorm());
+    f_.add(i, pull);
+  }
   scale_ = std::sqrt(largest);
   free = free_.gathered(f_);
 }
@@ -95,14 +107,15 @@ void EquilibriumSolver::refactor(const Field& x) {
   add_anchors(stiffness_, free_, factored_values_);
   if (!analyzed_) factor_.analyze(stiffness_.column_begin(), stiffness_.rows());
   analyzed_ = true;
-  const double largest = stiffness_.largest_diagonal();
+  double largest = stiffness_.largest_diagonal();
+  for (const double d : anchor_stiffness_) largest = std::max(largest, d);
   const auto [left, right] = std::minmax_element(x.x.begin(), x.x.end());
   const auto [low, high] = std::minmax_element(x.y.begin(), x.y.end());
   rounding_ = kRounding * largest * std::max(*right - *left, *high - *low);
   // A shift that was needed a moment ago is tried a little smaller; most of the time none is.
-  for (shift_ = std::max(kLeastShift, 1e-3 * shift_); shift_ <= kMostShift; shift_ *= 30) {
+  for (shift_ = std::max(least_shift_, 1e-3 * shift_); shift_ <= kMostShift; shift_ *= 30) {
     ++cost_.factorizations;
-    factored_ = factor_.factorize(stiffness_.column_begin(), stiffness_.rows(), factored_values_, shift_ * largest);
+    factored_ = factor_.factorize(factored_values_, shift_ * largest);
     if (factored_) break;
   }
   factor_x_ = x;
@@ -145,6 +158,30 @@ double EquilibriumSolver::allowed_share(const Field& x, const Eigen::VectorXd& s
   return share * model_.contacts->safe_share(x, way);
 }
 
+// The factor is kept in single precision: where soft and stiff lie far apart, conjugate gradients bring the digits that it lacks.
+Eigen::VectorXd EquilibriumSolver::tangent_solution(const Eigen::VectorXd& f) {
+  const int n = stiffness_.size();
+  const Eigen::Map<const Eigen::SparseMatrix<double>> lower(n, n, static_cast<Eigen::Index>(factored_values_.size()),
+                                                            stiffness_.column_begin().data(), stiffness_.rows().data(),
+                                                            factored_values_.data());
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(n), left = f, z = factor_.solve(left), p = z;
+  double energy = left.dot(z);
+  ++cost_.solves;
+  for (int k = 0; k < kGradients && left.norm() > kSolved * f.norm(); ++k) {
+    const Eigen::VectorXd kp = lower.selfadjointView<Eigen::Lower>() * p;
+    const double stiff = p.dot(kp);
+    if (!(stiff > 0)) break;
+    const double alpha = energy / stiff;
+    x += alpha * p, left -= alpha * kp;
+    z = factor_.solve(left);
+    ++cost_.solves;
+    const double next = left.dot(z);
+    p = z + next / energy * p;
+    energy = next;
+  }
+  return x;
+}
+
 // Newton's method as it stands in books: a new tangent and a whole step each time, uphill too. Where something is stiff (a core that keeps its
 // area, walls that keep their length while they turn far) every straight step strains it, and a search that may only go downhill creeps;
 // here the next step takes that strain back.
@@ -157,9 +194,9 @@ bool EquilibriumSolver::rush(Field& x, double tolerance) {
     refactor(x);
     if (!factored_) return false;
     // A minimum, and not just any rest.
-    if (there) return shift_ <= kLeastShift;
-    ++cost_.iterations, ++cost_.solves;
-    const Eigen::VectorXd step = factor_.solve(f);
+    if (there) return shift_ <= least_shift_;
+    ++cost_.iterations;
+    const Eigen::VectorXd step = tangent_solution(f);
     if (!step.allFinite()) return false;
     free_.add(step, allowed_share(x, step), x);
     evaluate(x, f);
@@ -172,6 +209,7 @@ bool EquilibriumSolver::relax(Field& x, double tolerance) {
   pairs_.clear();
   failure_.clear();
   const Field start = x;
+  Field there;
   Eigen::VectorXd f, next;
   evaluate(x, f);
   double first = measure(f), before = first;
@@ -201,8 +239,13 @@ bool EquilibriumSolver::relax(Field& x, double tolerance) {
       step = direction(f);
       slope = step.dot(f);
     }
+    // Nothing holds what goes so far: rounding alone drives it. A larger shift keeps it where it is.
+    if (step.cwiseAbs().maxCoeff() > kLost * length_ && least_shift_ < kMostLeastShift) {
+      least_shift_ *= 100;
+      factored_ = false;
+      continue;
+    }
     double alpha = allowed_share(x, step);
-    Field there = x;
     bool found = false;
     for (int halving = 0; halving < kMostHalvings; ++halving) {
       there = x;

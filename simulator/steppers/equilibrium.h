@@ -20,7 +20,7 @@ class EquilibriumSolver {
   EquilibriumSolver(Model& model, const std::vector<Load>& loads);
 
   /// Forces that do not depend on the positions [N].
-  void set_dead_forces(const Field& f) { dead_ = f; }
+  void set_dead_forces(const Field& f);
   /// d [N/m] of each node, and a [m]. Empty: statics.
   void set_anchors(std::vector<double> stiffness, Field positions);
 
@@ -54,6 +54,7 @@ class EquilibriumSolver {
  private:
   void refactor(const Field& x);
   bool rush(Field& x, double tolerance);
+  Eigen::VectorXd tangent_solution(const Eigen::VectorXd& f);
   double allowed_share(const Field& x, const Eigen::VectorXd& step);
   void add_anchors(const StiffnessMatrix& k, const FreeComponents& free, std::vector<double>& values) const;
   Eigen::VectorXd direction(const Eigen::VectorXd& f);
@@ -68,12 +69,14 @@ class EquilibriumSolver {
   SparseFactor factor_;
   ShellScratch scratch_;
   Field dead_, anchor_, f_;
+  double largest_dead_ = 0;  // its square [N^2]
   std::vector<double> anchor_stiffness_;
   bool analyzed_ = false, factored_ = false;
   Field reached_;
   Field factor_x_;  // where the factor was made
   std::vector<double> factored_values_;
-  double shift_ = 0;  // of the last factor, over the largest diagonal
+  double least_shift_ = 1e-12;  // grows where pieces are loose
+  double shift_ = 0;            // of the last factor, over the largest diagonal
   double scale_ = 0, residual_ = 0;
   double length_ = 0;    // mean segment [m]
   double rounding_ = 0;  // force below which nothing can be told [N]

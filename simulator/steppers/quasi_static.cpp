@@ -12,7 +12,9 @@ namespace lamella {
 namespace {
 
 constexpr int kMostTries = 60;       // of one increment
+constexpr int kMostSearches = 20000;  // on the way through it
 constexpr double kShortest = 1e-12;  // increment, over the longest: below, a jump of the criterion is a jump
+constexpr double kWild = 0.1;        // share of a first-order motion that contacts allow: below, it is not used
 constexpr double kProbe = 1e-4;      // way of a grip from which its tangent is found, in mean segments
 
 }  // namespace
@@ -26,12 +28,14 @@ QuasiStatic::QuasiStatic(Model& model, const std::vector<Load>& loads, const Loa
       solver_(model, loads),
       x_(std::move(x)),
       dead_(x_.size()),
+      wall_work_(model.layout),
       start_time_(start_time) {
   for (std::size_t l = 0; l < loads.size(); ++l)
     for (Index i : loads[l].nodes)
       for (int c = 0; c < 2; ++c)
         if (loads[l].holds[c]) held_.push_back({i, c, l, x_.at(i)[c]});
   reaction_.assign(held_.size(), 0.0);
+  trusted_ = settings.longest;
   softens_ = model.links && model.links->softens();
   if (softens_) works_.fracture = -model.links->dissipated();
   dissipates_ = model.friction > 0;
@@ -59,7 +63,8 @@ void QuasiStatic::prescribe(double time, Field& x) {
 }
 
 double QuasiStatic::criterion(const Field& x) {
-  return model_.links ? model_.links->most_loaded(x, link_work_).zeta : -1.0;
+  const double links = model_.links ? model_.links->most_loaded(x, link_work_).zeta : -1.0;
+  return model_.rupture ? std::max(links, model_.rupture->most_loaded(x, wall_work_).zeta) : links;
 }
 
 double QuasiStatic::energy(const Field& x) const {
@@ -86,7 +91,9 @@ bool QuasiStatic::hand_over_softened() {
   const std::int64_t first = static_cast<std::int64_t>(breaks_.size());
   for (const Break& softened : model_.links->breaks()) {
     const std::int64_t place = static_cast<std::int64_t>(breaks_.size()) - first;
-    breaks_.push_back({.link = softened, .avalanche = avalanches_, .place = place, .time = time_});
+    BreakAtRest event;
+    event.link = softened;
+    record(event, place);
     model_.links->set_break_time(softened.link, start_time_ + time_);
     if (model_.contacts) model_.contacts->release(softened.link, x_, softened.friction_force);
     works_.fracture += softened.energy;
@@ -190,10 +197,12 @@ Eigen::VectorXd QuasiStatic::first_motion(double increment) {
   return solver_.response(x_, work_) / probe;
 }
 
-void QuasiStatic::load_towards(double end) {
+void QuasiStatic::load_towards(double end, const std::function<bool()>& go_on) {
   const double target = end - time_ < 1.001 * settings_.longest ? end : time_ + settings_.longest;
-  while (time_ < target && !critical_) {
-    const double h = target - time_;
+  int searches = 0;
+  while (time_ < target && !critical_ && over_.empty() && go_on()) {
+    // Where searches have failed, the next one goes no further than twice the last that did not.
+    const double h = std::min(target - time_, trusted_);
     const Eigen::VectorXd motion = first_motion(h);
     const auto predicted = [&](double step) {
       Field x = x_;
@@ -215,18 +224,29 @@ void QuasiStatic::load_towards(double end) {
     // There, and as far back or on as it takes.
     low = 0, z_low = before, high = 0, z_high = 0;
     Field there = predicted(step);
+    bool wild = false;
     if (model_.contacts) {
-      Field way = there;
-      prescribe(time_ + step, way);
-      for (std::size_t i = 0; i < way.size(); ++i) way.set(i, way.at(i) - x_.at(i));
-      if (const double share = model_.contacts->safe_share(x_, way); share < 1) there = predicted(step *= share);
+      const auto share_of = [&](Field way) {
+        prescribe(time_ + step, way);
+        for (std::size_t i = 0; i < way.size(); ++i) way.set(i, way.at(i) - x_.at(i));
+        return model_.contacts->safe_share(x_, way);
+      };
+      double share = share_of(there);
+      // Just before a contact closes or opens the tangent may promise far too much: then what is free stays where it is.
+      wild = share < kWild;
+      if (wild) share = share_of(x_);
+      step *= share;
+      there = wild ? x_ : predicted(step);
     }
     for (int tries = 0;; ++tries) {
+      if (++searches > kMostSearches)
+        return give_up("no equilibrium under a little more load, in many small steps", time_ + step);
       if (!try_at(time_ + step, there)) {
         step = low + 0.3 * (step - low);
+        trusted_ = step;
         if (tries > kMostTries || step < kShortest * h)
           return give_up("no equilibrium under a little more load", time_ + step);
-        there = predicted(step);
+        there = wild ? x_ : predicted(step);
         high = 0;
         continue;
       }
@@ -234,7 +254,8 @@ void QuasiStatic::load_towards(double end) {
       const bool at_last = high > 0 && high - low < kShortest * h;
       if (z <= settings_.load_tolerance || at_last || tries > kMostTries) {
         const double left_before = softens_ ? works_.loads + works_.pressure - energy(x_) : 0.0;
-        accept(step == h ? target : time_ + step, std::move(there));
+        accept(step == h && h == target - time_ ? target : time_ + step, std::move(there));
+        trusted_ = std::max(trusted_, 2 * step);
         if (softens_) works_.released += std::max(0.0, works_.loads + works_.pressure - energy(x_) - left_before);
         bring_to_rest();
         critical_ = z >= -settings_.load_tolerance;
@@ -277,6 +298,55 @@ void QuasiStatic::take_back() {
   }
 }
 
+void QuasiStatic::record(BreakAtRest event, std::int64_t place) {
+  event.avalanche = avalanches_, event.place = place, event.time = time_;
+  breaks_.push_back(event);
+}
+
+void QuasiStatic::break_most_loaded(std::int64_t place) {
+  const auto link = model_.links ? model_.links->most_loaded(x_, link_work_) : CohesiveLinks::Loaded{};
+  const auto bar = model_.rupture ? model_.rupture->most_loaded(x_, wall_work_) : WallRupture::Loaded{};
+  if (bar.zeta > link.zeta)
+    break_wall(bar, place);
+  else
+    break_link(link.link, place);
+}
+
+// The bar, the hinges at its ends and the core of its cell end; links beside it get another frame, or none; contact loses a segment, and
+// ends meet what they ignored. What all of them held, and hold no more, is the energy of the break.
+void QuasiStatic::break_wall(const WallRupture::Loaded& bar, std::int64_t place) {
+  solver_.forget();
+  const double before = energy(x_);
+  const double now = start_time_ + time_;
+  BreakAtRest event;
+  event.link.link = -1;
+  event.wall = model_.rupture->broken_at(bar, x_, wall_work_);
+  model_.rupture->end(bar.cell, bar.bar, now);
+  double of_links = 0;
+  std::vector<BreakAtRest> without_frame;
+  if (CohesiveLinks* const links = model_.links.get()) {
+    for (const Index l : links->without_tangent(model_.rupture->broken())) {
+      BreakAtRest cut;
+      const double spent = links->dissipated(l);  // by damage: no part of what was held
+      cut.link = links->cut(l, x_, x_);
+      links->set_break_time(l, now);
+      if (model_.contacts) model_.contacts->release(l, x_, cut.link.friction_force);
+      of_links += cut.link.energy - spent;
+      works_.fracture += spent;
+      without_frame.push_back(cut);
+    }
+    links->follow(model_.rupture->broken());
+  }
+  if (model_.contacts) model_.contacts->lose(bar.bar, x_);
+  const double lost = before - energy(x_);
+  potential_ -= lost;
+  event.wall.energy = lost + event.wall.pressure_work - of_links;
+  works_.fracture += event.wall.energy + of_links;
+  works_.pressure += event.wall.pressure_work;
+  record(event, place);
+  for (const BreakAtRest& cut : without_frame) record(cut, place);
+}
+
 void QuasiStatic::break_link(Index link, std::int64_t place) {
   CohesiveLinks& links = *model_.links;
   Contacts* const contacts = model_.contacts.get();
@@ -292,8 +362,7 @@ void QuasiStatic::break_link(Index link, std::int64_t place) {
   }
   works_.fracture += event.link.energy;
   potential_ -= event.link.energy;
-  event.avalanche = avalanches_, event.place = place, event.time = time_;
-  breaks_.push_back(event);
+  record(event, place);
 }
 
 void QuasiStatic::fall(const std::function<bool()>& go_on) {
@@ -302,7 +371,7 @@ void QuasiStatic::fall(const std::function<bool()>& go_on) {
   while (critical_ && go_on()) {
     const std::size_t first = breaks_.size();
     do {
-      break_link(model_.links->most_loaded(x_, link_work_).link, place++);
+      break_most_loaded(place++);
     } while (settings_.all_at_once && criterion(x_) > 0);
     Field x = x_;
     if (!try_at(time_, x)) {

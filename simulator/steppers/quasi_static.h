@@ -23,7 +23,8 @@ struct QuasiStaticSettings {
 
 /// A break at rest.
 struct BreakAtRest {
-  Break link;
+  Break link;                  // .link is -1 where a bar of a wall broke
+  WallBreak wall;              // else not set
   std::int64_t avalanche = 0;  // from 0
   std::int64_t place = 0;      // in it, from 0
   double time = 0;             // of the stage [s]
@@ -48,8 +49,9 @@ class QuasiStatic {
 
   /// Finds the first equilibrium, under the loads of the present time. Throws SolverError.
   void settle();
-  /// One increment of load towards `end`, at most until a link reaches its criterion. Throws SolverError where no equilibrium is found.
-  void load_towards(double end);
+  /// One increment of load towards `end`, at most until a link reaches its criterion. `go_on` is asked on the way. Throws SolverError where no
+  /// equilibrium is found.
+  void load_towards(double end, const std::function<bool()>& go_on);
   /// A link is at its criterion: there is a break to come before the load may grow.
   bool critical() const { return critical_; }
   /// Breaks links at this load until all that are left hold. `go_on` is asked after each equilibrium. Where the settings say `follow`:
@@ -67,7 +69,7 @@ class QuasiStatic {
   Field load_force_on_nodes() const;
   const EquilibriumSolver& solver() const { return solver_; }
   /// See EquilibriumSolver::forget.
-  void forget() { solver_.forget(); }
+  void forget() { solver_.forget(), trusted_ = settings_.longest; }
 
   void save(ArraySet& restart) const;
   void restore(const ArraySet& restart);
@@ -91,7 +93,10 @@ class QuasiStatic {
   bool hand_over_softened();
   void bring_to_rest();
   void book_pressures(double time);
+  void break_most_loaded(std::int64_t place);
   void break_link(Index link, std::int64_t place);
+  void break_wall(const WallRupture::Loaded& bar, std::int64_t place);
+  void record(BreakAtRest event, std::int64_t place);
   void give_up(const std::string& what, double time);
 
   Model& model_;
@@ -105,8 +110,10 @@ class QuasiStatic {
   Eigen::VectorXd work_;          // scratch
   std::vector<double> reaction_;  // on each of held_, at the accepted configuration [N]
   LinkForces link_work_;
+  ShellScratch wall_work_;
   double start_time_ = 0, time_ = 0;
   double segment_ = 0;         // mean length [m]
+  double trusted_ = 0;         // increment of time that a search may ask for [s]
   double potential_ = 0;       // of the accepted configuration: energy less the work of dead forces [J]
   std::vector<double> lever_;  // of prescribed pressures, at the accepted configuration [J/Pa]
   bool dissipates_ = false;    // committing history lowers the potential: walls flow, or contacts rub

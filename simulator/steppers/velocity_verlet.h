@@ -8,56 +8,26 @@
 #pragma once
 #include <vector>
 
-#include "simulator/loads.h"
-#include "simulator/model.h"
+#include "simulator/steppers/stepper.h"
 #include "simulator/steppers/team.h"
 
 namespace lamella {
 
-struct State {
-  Field x;          // positions at `time` [m]
-  Field v;          // velocities half a step before [m/s]
-  double time = 0;  // [s]
-  std::int64_t step = 0;
-};
-
-/// What left the mechanical energy, or entered it, since the stepper was made [J].
-struct Works {
-  double loads = 0;  // work of grips and prescribed forces
-  double pressure =
-      0;  // of pressures that were held in cells that have opened; that of a pressure's change is booked by who changes it
-  double damping = 0;  // drag, dashpots, contact damping
-  double friction = 0;
-  double plastic = 0;
-  double fracture = 0;
-};
-
-/// A configuration weighed on the way through it. Everything refers to the start of the step.
-struct Measurement {
-  Works works;
-  double kinetic = 0;            // 1/2 m v(n-1/2) . v(n+1/2) [J]
-  std::vector<Vec2> load_force;  // what each load exerts on the sample, its nodes' inertia apart [N]
-  double unbalanced = 0;         // largest force F on a free node: F / (F + root mean square section force) [1]
-};
-
-class VelocityVerlet {
+class VelocityVerlet final : public Stepper {
  public:
   VelocityVerlet(Model& model, std::vector<Load>& loads, State& state, int threads);
 
-  /// One step. `kick` is the mean of the last step and this one where the step changes, else dt.
-  void step(double dt, double kick);
-  /// One step, weighed. `force_on_node` receives what loads exert on each node, where wanted.
-  Measurement measured_step(double dt, double kick, Field* force_on_node);
+  void step(double dt, double kick) override;
+  Measurement measured_step(double dt, double kick, Field* force_on_node) override;
 
-  /// Breaks since the last call, in order of time, then link.
-  std::vector<Break> take_breaks();
-  std::vector<WallBreak> take_wall_breaks();
+  std::vector<Break> take_breaks() override;
+  std::vector<WallBreak> take_wall_breaks() override;
   /// Number of steps so far.
   std::int64_t steps() const { return steps_; }
-  const std::vector<std::uint8_t>& fully_held() const { return fully_held_; }
+  const std::vector<std::uint8_t>& fully_held() const override { return fully_held_; }
 
-  void save(ArraySet& restart) const;
-  void restore(const ArraySet& restart);
+  void save(ArraySet& restart) const override;
+  void restore(const ArraySet& restart) override;
 
  private:
   struct HeldNode {
@@ -105,7 +75,7 @@ class VelocityVerlet {
   std::int64_t steps_ = 0;
 
  public:
-  ~VelocityVerlet();
+  ~VelocityVerlet() override;
 };
 
 }  // namespace lamella

@@ -380,11 +380,12 @@ void CohesiveLinks::add_stiffness_of(Index l, const State& s, StiffnessSink& sin
   };
   const Role roles[6] = {{link.a, -1, 0},      {link.b, 1, 0},       {link.a_next, 0, 1},
                          {link.a_prev, 0, -1}, {link.b_next, 0, -1}, {link.b_prev, 0, 1}};
+  // A node has a weight in D or in tau, never in both.
+  const Eigen::Matrix2d tau_d = d_tau.transpose();
   for (const Role& p : roles)
     for (const Role& q : roles) {
-      const Eigen::Matrix2d block =
-          p.d * q.d * dd + p.d * q.tau * d_tau + p.tau * q.d * d_tau.transpose() + p.tau * q.tau * tau_tau;
-      if (!block.isZero(0)) sink.add(p.node, q.node, block);
+      const Eigen::Matrix2d& block = p.d != 0 ? (q.d != 0 ? dd : d_tau) : (q.d != 0 ? tau_d : tau_tau);
+      sink.add(p.node, q.node, ((p.d + p.tau) * (q.d + q.tau)) * block);
     }
 }
 

@@ -90,6 +90,46 @@ void WallRupture::break_exceeded(const ShellScratch& w, const Drop& drop, std::v
   }
 }
 
+WallRupture::Loaded WallRupture::most_loaded(const Field& x, ShellScratch& w) const {
+  const Sample& sample = layout_.sample();
+  Loaded most;
+  if (!breakable()) return most;
+  Field unused(x.size());
+  for (const CellBlock& block : layout_.blocks()) {
+    w.load(sample, block, x);
+    parts_.bars->add_to_block(w, unused);
+    for (Index c = block.cell_begin; c < block.cell_end; ++c)
+      for (Index i = sample.cell_begin[c]; i < sample.cell_begin[c + 1]; ++i) {
+        if (!sample.starts_segment(c, i) || broken_.gone(i)) continue;
+        const Index slot = ShellLayout::slot(c, i), at = slot - block.slot_begin;
+        double zeta = -1;
+        if (!force_.empty()) zeta = std::max(zeta, w.tension[at] / force_[slot] - 1);
+        // An elongation at which it breaks: from the rest length, so that a bar without load is as far from it as a link is.
+        if (!length_.empty() && length_[slot] < kNever) {
+          const double rest = sample.rest_length[i];
+          zeta = std::max(zeta, (w.length[at] - rest) / (length_[slot] - rest) - 1);
+        }
+        if (zeta > most.zeta) most = {zeta, c, i};
+      }
+  }
+  return most;
+}
+
+WallBreak WallRupture::broken_at(const Loaded& loaded, const Field& x, ShellScratch& w) const {
+  const CellBlock& block = layout_.blocks()[layout_.block_of_cell(loaded.cell)];
+  Field unused(x.size());
+  w.load(layout_.sample(), block, x);
+  parts_.bars->add_to_block(w, unused);
+  const Index at = ShellLayout::slot(loaded.cell, loaded.bar) - block.slot_begin;
+  WallBreak event;
+  event.bar = loaded.bar, event.cell = loaded.cell;
+  event.tension = w.tension[at];
+  event.position = 0.5 * (Vec2(w.px[at], w.py[at]) + Vec2(w.px[at + 1], w.py[at + 1]));
+  if (parts_.core && parts_.core->present(loaded.cell))
+    event.pressure_work = parts_.core->released(loaded.cell, w).work;
+  return event;
+}
+
 void WallRupture::end(Index cell, Index bar, double time) {
   const Sample& sample = layout_.sample();
   if (broken_.gone(bar)) return;

@@ -46,6 +46,15 @@ class WallRupture {
   /// break: by half of the forces that end. Changes nothing: `end` does, once all bars of the step are found.
   using Drop = std::function<void(Index node, const Vec2& force)>;
   void break_exceeded(const ShellScratch& scratch, const Drop& drop, std::vector<WallBreak>& breaks) const;
+  // ---- at rest: one bar at a time ----
+  struct Loaded {
+    double zeta = -1;  // the larger of tension over strength and elongated length over the longest, less 1
+    Index cell = -1, bar = -1;
+  };
+  /// The bar that is nearest to its strength at x, or furthest beyond it. `scratch` is scratch.
+  Loaded most_loaded(const Field& x, ShellScratch& scratch) const;
+  /// That bar as it breaks at x, without the energy. Changes nothing: see `end`.
+  WallBreak broken_at(const Loaded& loaded, const Field& x, ShellScratch& scratch) const;
   /// The bar is gone from now on.
   void end(Index cell, Index bar, double time);
 

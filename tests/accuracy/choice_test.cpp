@@ -70,6 +70,18 @@ TEST(Choice, its_settings_make_the_same_scene) {
   EXPECT_NEAR(stage.drag->rate / *choice.drag, 1, 1e-5);
 }
 
+TEST(Choice, of_a_scene_at_rest_is_how_fine_it_is) {
+  const Choice choice = choose(kSpring + "[run]\nstepper = \"quasi_static\"\n", 0.01);
+  ASSERT_TRUE(choice.fineness);
+  EXPECT_EQ(choice.slowdown, 1);
+  const RunScene once = parse_scene(kSpring, "scene", choice.settings()).stages.at(0).run;
+  const RunScene twice = parse_scene(kSpring, "scene", choice.times(2).settings()).stages.at(0).run;
+  EXPECT_NEAR(twice.residual / once.residual, 0.5, 1e-5);
+  EXPECT_NEAR(twice.load_tolerance / once.load_tolerance, 0.5, 1e-5);
+  EXPECT_EQ(twice.load_steps, 2 * once.load_steps);
+  EXPECT_EQ(slower(choice, 1, 0.01).effort() / choice.effort(), 4);
+}
+
 TEST(Choice, is_refused_where_nothing_is_prescribed_in_time) {
   std::string still = kSpring;
   still.replace(still.find("velocity_x = 0.1"), 16, "force_x = 1");

@@ -1,9 +1,8 @@
-// The sparse stiffness and its factor, against dense matrices.
+// The sparse stiffness against dense matrices.
 #include "simulator/assembly.h"
 
 #include <Eigen/Dense>
 
-#include "simulator/steppers/sparse_factor.h"
 #include "tests/simulator/tissues.h"
 
 namespace lamella {
@@ -82,43 +81,6 @@ TEST(Assembly, gathers_and_moves_free_components_alone) {
   EXPECT_EQ(x.at(30), tissue.x.at(30) + Vec2(0.5, 0));
   EXPECT_EQ(x.at(3), tissue.x.at(3) + Vec2(0.5, 0.5));
   EXPECT_EQ(free.gathered(x)[free.row(3, 1)], x.y[3]);
-}
-
-TEST(SparseFactor, solves_and_is_updated_as_if_it_were_made_anew) {
-  const HeldTissue tissue;
-  const FreeComponents free(tissue.sample.nodes(), tissue.loads);
-  StiffnessMatrix k(free);
-  tissue.assemble(k);
-  const double shift = 50;  // a shaken tissue is not stable everywhere
-  SparseFactor factor;
-  factor.analyze(k.column_begin(), k.rows());
-  ASSERT_TRUE(factor.factorize(k.column_begin(), k.rows(), k.values(), shift));
-  Eigen::MatrixXd dense = tissue.dense(free);
-  dense.diagonal().array() += shift;
-  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(free.size(), -1, 2);
-  EXPECT_LT((factor.solve(b) - dense.ldlt().solve(b)).norm(), 1e-10 * b.norm());
-
-  const std::vector<int> rows{40, 3, 21};
-  Eigen::MatrixXd c(3, 2);
-  c << 1, 0, -2, 1, 0.5, 3;
-  for (const int sign : {1, -1}) {
-    ASSERT_TRUE(factor.update(rows, sign > 0 ? c : (0.5 * c).eval(), sign));
-    const Eigen::MatrixXd cc = sign * (sign > 0 ? 1.0 : 0.25) * c * c.transpose();
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) dense(rows[i], rows[j]) += cc(i, j);
-    EXPECT_LT((factor.solve(b) - dense.ldlt().solve(b)).norm(), 1e-10 * b.norm()) << sign;
-  }
-}
-
-TEST(SparseFactor, says_when_a_matrix_is_not_positive_definite) {
-  const std::vector<int> begin{0, 2, 3}, rows{0, 1, 1};
-  SparseFactor factor;
-  factor.analyze(begin, rows);
-  EXPECT_TRUE(factor.factorize(begin, rows, {2, 1, 2}, 0));
-  EXPECT_FALSE(factor.update({1}, Eigen::MatrixXd::Constant(1, 1, 2.0), -1));
-  EXPECT_FALSE(factor.factorize(begin, rows, {2, 3, 2}, 0));
-  EXPECT_FALSE(factor.factorize(begin, rows, {0, 0, 1}, 0));
-  EXPECT_TRUE(factor.factorize(begin, rows, {2, 3, 2}, 2));
 }
 
 }  // namespace

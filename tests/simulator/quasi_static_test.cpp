@@ -32,7 +32,7 @@ struct StaticRig {
   /// Up to the end, or until it is over.
   void run() {
     while (stepper->time() < 1 && stepper->over().empty()) {
-      stepper->load_towards(1);
+      stepper->load_towards(1, [] { return true; });
       if (stepper->critical()) stepper->fall([] { return true; });
     }
   }
@@ -100,7 +100,7 @@ TEST(QuasiStatic, links_break_at_their_criterion_and_none_is_left_beyond_it) {
   LinkForces work;
   std::size_t breaks = 0;
   while (rig.stepper->time() < 1) {
-    rig.stepper->load_towards(1);
+    rig.stepper->load_towards(1, [] { return true; });
     if (!rig.stepper->critical()) continue;
     // The load of a break is exact, ...
     EXPECT_NEAR(rig.model->links->most_loaded(rig.stepper->x(), work).zeta, 0, 1e-4);
@@ -195,6 +195,30 @@ TEST(QuasiStatic, walls_that_flow_carry_their_yield_force_and_keep_their_length)
   for (const ShellTerm* term : rig.model->shell_terms()) plastic += term->dissipated();
   EXPECT_NEAR(plastic, 0.4 * 0.05 * length, 1e-6 * length);
   EXPECT_NEAR(rig.energy(), 0.5 * 0.4 * 0.05 * length, 1e-6 * length);
+}
+
+TEST(QuasiStatic, a_wall_breaks_at_its_strength_and_books_what_it_held) {
+  // A ring under pressure bursts; then it is a chain without pressure.
+  const Sample ring = ring_sample(20);
+  Stage stage;
+  stage.cells["cells"] = cell_scene(100.0, 1.0, 1.0);
+  stage.cells["cells"].break_force = 2;
+  stage.cells["cells"].core.emplace().drained = true;
+  const std::vector<Vec2> history{{0, 0}, {1, 4}};
+  stage.cells["cells"].core->pressure_history = history;
+  StaticRig rig(ring, stage, {held({0}, true, true), held({10}, false, true)});
+  rig.run();
+  const auto breaks = rig.stepper->take_breaks();
+  ASSERT_EQ(breaks.size(), 1u);
+  EXPECT_EQ(breaks[0].link.link, -1);
+  EXPECT_NEAR(breaks[0].wall.tension, 2, 2e-3);
+  // A node is pushed by p l cos(pi / 20) and held by 2 T sin(pi / 20), l being a bar's length under T.
+  const double length = ring.rest_length[0] * (1 + 2.0 / 100);
+  EXPECT_NEAR(4 * breaks[0].time, 2 * 2 * std::tan(M_PI / 20) / length, 1e-3);
+  const StaticWorks& w = rig.stepper->works();
+  EXPECT_GT(w.fracture, 0);
+  EXPECT_NEAR((w.loads + w.pressure - rig.energy() - w.fracture - w.released) / w.released, 0, 1e-2);
+  EXPECT_LT(rig.energy(), 1e-3 * w.released);  // nothing holds it any more
 }
 
 TEST(QuasiStatic, gives_up_with_load_node_and_reason) {
