@@ -54,9 +54,10 @@ void snap_back(StudyBench& bench) {
       "Where a link breaks and others hold the load no longer, the load may stay (`unstable = \"fall\"`): the curve "
       "drops, "
       "and what is set free is booked as released; or it may go back to where the next link is at its criterion "
-      "(`\"follow\"`): the curve snaps back. What is released is in the table. A double cantilever (beta = 1, c = 10), "
-      "and "
-      "the tissue of `tissue.toml`.");
+      "(`\"follow\"`): the curve snaps back. What is released is in the table. In a double cantilever (beta = 1, c = "
+      "10) the next link "
+      "holds after every break: the load drops, and both ways are the same. In the tissue of `tissue.toml` they are "
+      "not.");
   ReportTable table{
       {"case", "breaks", "peak", "work", "fracture", "released", "stored at the end", "ledger", "seconds"}, {}};
   const double beta = 1;
@@ -86,7 +87,7 @@ void snap_back(StudyBench& bench) {
     chart.curves[0].style.width = 0.9;
     return chart;
   };
-  report.chart("snap_back_beam", "A double cantilever opened on: each break drops the load, or takes the opening back.",
+  report.chart("snap_back_beam", "A double cantilever opened on: each break drops the load, and the next link holds.",
                both("Double cantilever", "half opening", "P", falls, follows));
 
   const auto tear = [&](const std::string& unstable) {
