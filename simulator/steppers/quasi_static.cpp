@@ -11,11 +11,11 @@
 namespace lamella {
 namespace {
 
-constexpr int kMostTries = 60;       // of one increment
+constexpr int kMostTries = 60;        // of one increment
 constexpr int kMostSearches = 20000;  // on the way through it
-constexpr double kShortest = 1e-12;  // increment, over the longest: below, a jump of the criterion is a jump
-constexpr double kWild = 0.1;        // share of a first-order motion that contacts allow: below, it is not used
-constexpr double kProbe = 1e-4;      // way of a grip from which its tangent is found, in mean segments
+constexpr double kShortest = 1e-12;   // increment, over the longest: below, a jump of the criterion is a jump
+constexpr double kWild = 0.1;         // share of a first-order motion that contacts allow: below, it is not used
+constexpr double kProbe = 1e-4;       // way of a grip from which its tangent is found, in mean segments
 
 }  // namespace
 
