@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace lamella {
 namespace {
@@ -92,6 +93,7 @@ void EquilibriumSolver::evaluate(const Field& x, Eigen::VectorXd& free) {
 
 double EquilibriumSolver::measure(const Eigen::VectorXd& f) {
   if (f.size() == 0) return residual_ = 0;
+  if (!f.allFinite()) return residual_ = std::numeric_limits<double>::infinity();  // which no maximum tells
   Eigen::Index at = 0;
   const double left = f.cwiseAbs().maxCoeff(&at);
   worst_node_ = free_.node_of(static_cast<int>(at));
