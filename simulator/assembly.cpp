@@ -56,8 +56,8 @@ bool StiffnessMatrix::assemble(const std::function<void(StiffnessSink&)>& visit)
 void StiffnessMatrix::make_pattern(std::vector<std::pair<Index, Index>> pairs) {
   std::sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-  const Index nodes = static_cast<Index>(free_.nodes());
-  const auto free_of = [&](Index i) { return (free_.row(i, 0) >= 0) + (free_.row(i, 1) >= 0); };
+  const Index nodes = static_cast<Index>(free_->nodes());
+  const auto free_of = [&](Index i) { return (free_->row(i, 0) >= 0) + (free_->row(i, 1) >= 0); };
   pair_begin_.assign(1, 0), pair_node_.clear(), before_.clear();
   column_begin_.assign(1, 0), rows_.clear();
   std::size_t at = 0;
@@ -70,12 +70,12 @@ void StiffnessMatrix::make_pattern(std::vector<std::pair<Index, Index>> pairs) {
     }
     pair_begin_.push_back(static_cast<Index>(pair_node_.size()));
     for (int c = 0; c < 2; ++c) {
-      if (free_.row(j, c) < 0) continue;
+      if (free_->row(j, c) < 0) continue;
       for (int a = c; a < 2; ++a)
-        if (free_.row(j, a) >= 0) rows_.push_back(free_.row(j, a));
+        if (free_->row(j, a) >= 0) rows_.push_back(free_->row(j, a));
       for (std::size_t k = first; k < at; ++k)
         for (int a = 0; a < 2; ++a)
-          if (free_.row(pairs[k].second, a) >= 0) rows_.push_back(free_.row(pairs[k].second, a));
+          if (free_->row(pairs[k].second, a) >= 0) rows_.push_back(free_->row(pairs[k].second, a));
       column_begin_.push_back(static_cast<int>(rows_.size()));
     }
   }
@@ -83,10 +83,10 @@ void StiffnessMatrix::make_pattern(std::vector<std::pair<Index, Index>> pairs) {
 }
 
 void StiffnessMatrix::add(Index i, Index j, const Eigen::Matrix2d& block) {
-  if (i < j || !free_.moves(i) || !free_.moves(j)) return;  // the lower triangle; its mirror image comes too
+  if (i < j || !free_->moves(i) || !free_->moves(j)) return;  // the lower triangle; its mirror image comes too
   if (i == j) {
     if (column_begin_.empty()) return;
-    const int x = free_.row(j, 0), y = free_.row(j, 1);
+    const int x = free_->row(j, 0), y = free_->row(j, 1);
     if (x >= 0) {
       double* const column = values_.data() + column_begin_[x];
       column[0] += block(0, 0);
@@ -107,12 +107,12 @@ void StiffnessMatrix::add(Index i, Index j, const Eigen::Matrix2d& block) {
   }
   const int before = before_[found - pair_node_.begin()];
   for (int c = 0; c < 2; ++c) {
-    const int column = free_.row(j, c);
+    const int column = free_->row(j, c);
     if (column < 0) continue;
-    const int own = c == 0 && free_.row(j, 1) >= 0 ? 2 : 1;
+    const int own = c == 0 && free_->row(j, 1) >= 0 ? 2 : 1;
     double* at = values_.data() + column_begin_[column] + own + before;
-    if (free_.row(i, 0) >= 0) *at++ += block(0, c);
-    if (free_.row(i, 1) >= 0) *at += block(1, c);
+    if (free_->row(i, 0) >= 0) *at++ += block(0, c);
+    if (free_->row(i, 1) >= 0) *at += block(1, c);
   }
 }
 

@@ -38,13 +38,13 @@ class FreeComponents {
 /// outside it is remembered and asks for `extend`.
 class StiffnessMatrix final : public StiffnessSink {
  public:
-  explicit StiffnessMatrix(const FreeComponents& free) : free_(free) {}
+  explicit StiffnessMatrix(const FreeComponents& free) : free_(&free) {}
 
   /// Sums what `visit` adds, in place of what was there. Returns true if the pattern is another one than before.
   bool assemble(const std::function<void(StiffnessSink&)>& visit);
   void add(Index i, Index j, const Eigen::Matrix2d& block) override;
 
-  int size() const { return free_.size(); }
+  int size() const { return free_->size(); }
   const std::vector<int>& column_begin() const { return column_begin_; }
   const std::vector<int>& rows() const { return rows_; }
   const std::vector<double>& values() const { return values_; }
@@ -56,7 +56,7 @@ class StiffnessMatrix final : public StiffnessSink {
  private:
   void make_pattern(std::vector<std::pair<Index, Index>> pairs);
 
-  const FreeComponents& free_;
+  const FreeComponents* free_;
   // per node j: the nodes i > j that it has blocks with, ascending, and how many free components come before each
   std::vector<Index> pair_begin_, pair_node_;
   std::vector<int> before_;

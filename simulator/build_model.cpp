@@ -311,6 +311,32 @@ std::vector<Term*> Model::terms() const {
   return out;
 }
 
+double Model::energy(const Field& x) const {
+  double sum = 0;
+  for (const Term* term : terms()) sum += term->energy(x);
+  return sum;
+}
+
+bool Model::yields() const {
+  const auto list = shell_terms();
+  return std::any_of(list.begin(), list.end(), [](const ShellTerm* term) { return term->plastic(); });
+}
+
+double Model::plastic_dissipated() const {
+  double sum = 0;
+  for (const ShellTerm* term : shell_terms()) sum += term->dissipated();
+  return sum;
+}
+
+void Model::hand_over(Break& event, const Field& x, double time) {
+  links->set_break_time(event.link, time);
+  if (!contacts) return;
+  const double ignoring = contacts->pressing_across(event.link, x);
+  const double rubbing = contacts->release(event.link, x, event.friction_force);
+  const double pressing = contacts->pressing_across(event.link, x) - links->left_to_contact(event, x);
+  event.energy -= pressing - ignoring + rubbing - links->left_to_friction(event);
+}
+
 std::size_t Model::bytes() const {
   std::size_t sum = 2 * sizeof(double) * mass.size();
   for (const Term* term : terms()) sum += term->bytes();

@@ -16,9 +16,8 @@ Vec2 centre_of_mass(const Model& model, const std::vector<Index>& nodes, const F
 Field forces_at_start(const Model& model, const std::vector<Load>& loads, const Field& x) {
   Field f(x.size());
   for (const Term* term : model.terms()) term->add_force(x, f);
-  for (const Load& load : loads)
-    if (load.pushes && load.ramp == 0)
-      for (std::size_t k = 0; k < load.nodes.size(); ++k) f.add(load.nodes[k], load.force[k]);
+  add_pushes(
+      loads, [](const Load& load) { return load.ramp == 0 ? 1.0 : 0.0; }, f);
   return f;
 }
 

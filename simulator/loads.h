@@ -25,6 +25,16 @@ struct Load {
   std::optional<double> stop_force;  // the stage ends when it exerts more [N]
 };
 
+/// Adds what the loads push with, each `factor_of(load)` times its full force [N].
+template <class Factor>
+void add_pushes(const std::vector<Load>& loads, const Factor& factor_of, Field& f) {
+  for (const Load& load : loads) {
+    if (!load.pushes) continue;
+    const double factor = factor_of(load);
+    for (std::size_t k = 0; k < load.nodes.size(); ++k) f.add(load.nodes[k], factor * load.force[k]);
+  }
+}
+
 /// Smooth growth from 0 to 1 over [0, 1] with zero slope at both ends: a load that starts without a jolt.
 inline double smooth_ramp(double u) { return u <= 0 ? 0.0 : u >= 1 ? 1.0 : u * u * (3 - 2 * u); }
 

@@ -51,6 +51,14 @@ struct Model {
   std::vector<Term*> terms() const;
   /// Terms inside cells, in the order in which a block adds them.
   std::vector<ShellTerm*> shell_terms() const;
+  /// Of all terms at x [J].
+  double energy(const Field& x) const;
+  /// Whether any wall can flow; what that has dissipated so far [J].
+  bool yields() const;
+  double plastic_dissipated() const;
+  /// This link has just broken at x, at that time [s]: contact takes its pair over. Takes from the energy of the break what contact and
+  /// its friction springs hold beyond what the link has left to them.
+  void hand_over(Break& event, const Field& x, double time);
   /// Walls that break from now on, or are broken (restored) though the stage has no strengths. After all terms are there.
   void add_rupture(const WallStrength& strength);
   std::size_t bytes() const;

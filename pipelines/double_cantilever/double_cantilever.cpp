@@ -56,11 +56,6 @@ StaticBeam solve_beam(const StudyBench& bench, double beta, int crack, double st
   out.load = found.factor / strength;
   out.half_opening = (found.x.y[upper_node(chains, 0)] - rest.y[upper_node(chains, 0)]) / strength;
 
-  const auto stored = [](const Model& m, const Field& x) {
-    double sum = 0;
-    for (const Term* term : m.terms()) sum += term->energy(x);
-    return sum;
-  };
   FacingChains longer = chains;
   longer.first_link = crack + 1;
   const Sample cracked = make_facing_chains(longer);
@@ -68,7 +63,7 @@ StaticBeam solve_beam(const StudyBench& bench, double beta, int crack, double st
   std::vector<Load> holding = pulling_loads(chains);
   for (Load& load : holding) load.pushes = false, load.holds[1] = true;
   const Field x = find_equilibrium(*after, holding, 0, found.x).x;
-  out.released = (stored(*model, found.x) - stored(*after, x)) / (strength * strength / (beta * beta));
+  out.released = (model->energy(found.x) - after->energy(x)) / (strength * strength / (beta * beta));
   return out;
 }
 

@@ -63,8 +63,7 @@ void time_steps(Tissue& tissue, int steps, int threads) {
       stepper.step(dt, dt);
       continue;
     }
-    double energy = 0;
-    for (const Term* term : model->terms()) energy += term->energy(state.x);
+    const double energy = model->energy(state.x);
     const Measurement m = stepper.measured_step(dt, dt, nullptr);
     const double out = energy + m.kinetic + m.works.damping + m.works.fracture;
     if (n == 0) energy_at_start = out - m.works.loads;

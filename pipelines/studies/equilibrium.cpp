@@ -28,15 +28,13 @@ class FreeSystem {
  public:
   FreeSystem(const Model& model, const std::vector<Load>& loads, double factor, std::size_t nodes)
       : model_(model), terms_(model.terms()), dead_(nodes), free_(nodes, loads) {
-    for (const Load& load : loads)
-      if (load.pushes)
-        for (std::size_t k = 0; k < load.nodes.size(); ++k) dead_.add(load.nodes[k], factor * load.force[k]);
+    add_pushes(
+        loads, [&](const Load&) { return factor; }, dead_);
   }
   int size() const { return free_.size(); }
 
   double potential(const Field& x) const {
-    double sum = 0;
-    for (const Term* term : terms_) sum += term->energy(x);
+    double sum = model_.energy(x);
     for (std::size_t i = 0; i < x.size(); ++i) sum -= dead_.at(i).dot(x.at(i));
     return sum;
   }

@@ -24,7 +24,7 @@ void BackwardEuler::finish(double dt, const Field& x0, double energy0) {
     v.set(i, v1);  // of held nodes too: they go straight
     force_work += terms_force().at(i).dot(way);
   }
-  book_damping(drag + jolt + energy0 - energy(x1) - force_work);
+  book_damping(drag + jolt + energy0 - model().energy(x1) - force_work);
 }
 
 }  // namespace lamella

@@ -23,7 +23,7 @@ constexpr int kGradients = 60;
 constexpr double kSolved = 1e-10;
 // Over the largest diagonal. Loose fragments make the stiffness singular; this keeps it regular, and moves nothing: the forces say when
 // equilibrium is reached.
-constexpr double kMostLeastShift = 1e-7, kMostShift = 1;
+constexpr double kLeastShift = 1e-12, kMostLeastShift = 1e-7, kMostShift = 1;
 constexpr double kLost = 50;  // way of a loose piece in one iteration, in mean segments
 // Over stiffness times extent: positions are rounded, and with them forces.
 constexpr double kRounding = 64 * 2.2e-16;
@@ -39,13 +39,20 @@ EquilibriumSolver::EquilibriumSolver(Model& model, const std::vector<Load>& load
       stiffness_(free_),
       scratch_(model.layout),
       dead_(model.sample.nodes()),
-      f_(model.sample.nodes()) {
+      f_(model.sample.nodes()),
+      least_shift_(kLeastShift) {
   for (Term* term : model.terms())
     if (std::find(shell_terms_.begin(), shell_terms_.end(), term) == shell_terms_.end()) other_terms_.push_back(term);
   Index count = 0;
   for (double l : model.sample.rest_length)
     if (l > 0) length_ += l, ++count;
   length_ /= std::max<Index>(1, count);
+}
+
+void EquilibriumSolver::forget() {
+  stiffness_ = StiffnessMatrix(free_);
+  analyzed_ = factored_ = false;
+  least_shift_ = kLeastShift, shift_ = 0, rounding_ = 0;
 }
 
 void EquilibriumSolver::set_dead_forces(const Field& f) {
@@ -82,12 +89,18 @@ void EquilibriumSolver::evaluate(const Field& x, Eigen::VectorXd& free) {
     }
   }
   for (const Term* term : other_terms_) term->add_force(x, f_);
+  scale_ = std::sqrt(largest);
+  free = free_.gathered(f_);
+}
+
+void EquilibriumSolver::evaluate_all(const Field& x, Eigen::VectorXd& free) {
+  evaluate(x, free);
+  if (anchor_stiffness_.empty()) return;
   for (std::size_t i = 0; i < anchor_stiffness_.size(); ++i) {
     const Vec2 pull = -anchor_stiffness_[i] * (x.at(i) - anchor_.at(i));
-    largest = std::max(largest, pull.squaredNorm());
+    scale_ = std::max(scale_, pull.norm());
     f_.add(i, pull);
   }
-  scale_ = std::sqrt(largest);
   free = free_.gathered(f_);
 }
 
@@ -106,7 +119,10 @@ void EquilibriumSolver::refactor(const Field& x) {
   });
   if (changed) analyzed_ = false;
   factored_values_ = stiffness_.values();
-  add_anchors(stiffness_, free_, factored_values_);
+  for (Index i = 0; i < static_cast<Index>(anchor_stiffness_.size()); ++i)
+    for (int c = 0; c < 2; ++c)
+      if (const int row = free_.row(i, c); row >= 0)
+        factored_values_[stiffness_.column_begin()[row]] += anchor_stiffness_[i];
   if (!analyzed_) factor_.analyze(stiffness_.column_begin(), stiffness_.rows());
   analyzed_ = true;
   double largest = stiffness_.largest_diagonal();
@@ -122,13 +138,6 @@ void EquilibriumSolver::refactor(const Field& x) {
   }
   factor_x_ = x;
   pairs_.clear();
-}
-
-void EquilibriumSolver::add_anchors(const StiffnessMatrix& k, const FreeComponents& free,
-                                    std::vector<double>& values) const {
-  for (Index i = 0; i < static_cast<Index>(anchor_stiffness_.size()); ++i)
-    for (int c = 0; c < 2; ++c)
-      if (const int row = free.row(i, c); row >= 0) values[k.column_begin()[row]] += anchor_stiffness_[i];
 }
 
 Eigen::VectorXd EquilibriumSolver::direction(const Eigen::VectorXd& f) {
@@ -189,7 +198,7 @@ Eigen::VectorXd EquilibriumSolver::tangent_solution(const Eigen::VectorXd& f) {
 // here the next step takes that strain back.
 bool EquilibriumSolver::rush(Field& x, double tolerance) {
   Eigen::VectorXd f;
-  evaluate(x, f);
+  evaluate_all(x, f);
   for (int iteration = 0; iteration < kRushIterations; ++iteration) {
     if (!std::isfinite(measure(f))) return false;
     const bool there = residual_ <= tolerance;
@@ -201,7 +210,7 @@ bool EquilibriumSolver::rush(Field& x, double tolerance) {
     const Eigen::VectorXd step = tangent_solution(f);
     if (!step.allFinite()) return false;
     free_.add(step, allowed_share(x, step), x);
-    evaluate(x, f);
+    evaluate_all(x, f);
   }
   return false;
 }
@@ -213,7 +222,7 @@ bool EquilibriumSolver::relax(Field& x, double tolerance) {
   const Field start = x;
   Field there;
   Eigen::VectorXd f, next;
-  evaluate(x, f);
+  evaluate_all(x, f);
   double first = measure(f), before = first;
   int since_factor = 0;
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
@@ -226,7 +235,7 @@ bool EquilibriumSolver::relax(Field& x, double tolerance) {
         return true;
       }
       factored_ = false;
-      evaluate(x, f);
+      evaluate_all(x, f);
       measure(f);
     }
     ++cost_.iterations;
@@ -252,7 +261,7 @@ bool EquilibriumSolver::relax(Field& x, double tolerance) {
     for (int halving = 0; halving < kMostHalvings; ++halving) {
       there = x;
       free_.add(step, alpha, there);
-      evaluate(there, next);
+      evaluate_all(there, next);
       const double slope_there = step.dot(next);
       if (std::isfinite(slope_there) && slope_there >= -0.7 * slope) {
         found = true;
@@ -265,7 +274,7 @@ bool EquilibriumSolver::relax(Field& x, double tolerance) {
       failure_ = "the line search found no way down";
       if (since_factor > 0) {
         factored_ = false;
-        evaluate(x, f);
+        evaluate_all(x, f);
         continue;
       }
       break;

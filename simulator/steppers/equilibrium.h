@@ -39,24 +39,29 @@ class EquilibriumSolver {
 
   /// The first-order motion of the free components for the force that is left at x: K^-1 f. Makes a factor at x where there is none.
   const Eigen::VectorXd& response(const Field& x, const Eigen::VectorXd& f);
-  /// All forces at x; `free` receives those on free components.
+  /// All forces at x, but for those of anchors; `free` receives those on free components.
   void evaluate(const Field& x, Eigen::VectorXd& free);
   const FreeComponents& free() const { return free_; }
+  /// Of all walls [m].
+  double mean_segment() const { return length_; }
 
   /// This link is about to break: takes its stiffness out of the factor.
   void drop_link(Index link);
-  /// Forgets the factor: the next search makes one. What follows then depends on x alone, and not on how it was come by.
-  void forget() { factored_ = false; }
+  /// The factor is of another system: the next search makes one.
+  void drop_factor() { factored_ = false; }
+  /// Forgets all that searches have learnt: pattern, factor, shifts. What follows depends on x and the model alone, and not on how they
+  /// were come by.
+  void forget();
   const SolverCost& cost() const { return cost_; }
   /// What made the last search fail.
   const std::string& failure() const { return failure_; }
 
  private:
+  void evaluate_all(const Field& x, Eigen::VectorXd& free);
   void refactor(const Field& x);
   bool rush(Field& x, double tolerance);
   Eigen::VectorXd tangent_solution(const Eigen::VectorXd& f);
   double allowed_share(const Field& x, const Eigen::VectorXd& step);
-  void add_anchors(const StiffnessMatrix& k, const FreeComponents& free, std::vector<double>& values) const;
   Eigen::VectorXd direction(const Eigen::VectorXd& f);
   void follow_contacts(const Field& x);
   double measure(const Eigen::VectorXd& f);
@@ -75,8 +80,8 @@ class EquilibriumSolver {
   Field reached_;
   Field factor_x_;  // where the factor was made
   std::vector<double> factored_values_;
-  double least_shift_ = 1e-12;  // grows where pieces are loose
-  double shift_ = 0;            // of the last factor, over the largest diagonal
+  double least_shift_;  // over the largest diagonal; grows where pieces are loose
+  double shift_ = 0;    // of the last factor, over the largest diagonal
   double scale_ = 0, residual_ = 0;
   double length_ = 0;    // mean segment [m]
   double rounding_ = 0;  // force below which nothing can be told [N]

@@ -33,21 +33,19 @@ ImplicitStepper::ImplicitStepper(Model& model, std::vector<Load>& loads, State& 
   if (model.links && model.links->softens()) works_.fracture = -model.links->dissipated();
 }
 
-double ImplicitStepper::energy(const Field& x) const {
-  double sum = 0;
-  for (const Term* term : model_.terms()) sum += term->energy(x);
-  return sum;
+Field ImplicitStepper::pushes() const {
+  Field dead(state_.x.size());
+  add_pushes(
+      loads_, [](const Load& load) { return load.factor; }, dead);
+  return dead;
 }
 
 void ImplicitStepper::step(double dt, double /*kick*/) {
   const Field x0 = state_.x;
-  const double energy0 = energy(x0);
-  Field dead(x0.size());
-  for (const Load& load : loads_)
-    if (load.pushes)
-      for (std::size_t k = 0; k < load.nodes.size(); ++k) dead.add(load.nodes[k], load.factor * load.force[k]);
+  const double energy0 = model_.energy(x0);
+  const Field dead = pushes();
   Step plan = this->plan(dt);
-  if (plan.per_mass != planned_) solver_.forget();  // made for another step
+  if (plan.per_mass != planned_) solver_.drop_factor();  // made for another step
   planned_ = plan.per_mass;
   std::vector<double> spring(model_.mass);
   for (double& d : spring) d *= plan.per_mass;
@@ -110,15 +108,8 @@ void ImplicitStepper::commit_and_break() {
   for (Term* term : model_.terms()) term->commit(state_.x);
   if (!model_.links) return;
   for (Break event : model_.links->breaks()) {
-    solver_.forget();
-    model_.links->set_break_time(event.link, state_.time);
-    if (Contacts* const contacts = model_.contacts.get()) {
-      const double ignoring = contacts->pressing_across(event.link, state_.x);
-      const double rubbing = contacts->release(event.link, state_.x, event.friction_force);
-      const double pressing =
-          contacts->pressing_across(event.link, state_.x) - model_.links->left_to_contact(event, state_.x);
-      event.energy -= pressing - ignoring + rubbing - model_.links->left_to_friction(event);
-    }
+    solver_.drop_factor();
+    model_.hand_over(event, state_.x, state_.time);
     works_.fracture += event.energy;
     breaks_.push_back(event);
   }
@@ -128,17 +119,12 @@ Measurement ImplicitStepper::measured_step(double dt, double kick, Field* force_
   // Everything of the start of the step, where the last one has ended.
   Measurement m;
   m.works = works_;
-  for (const ShellTerm* term : model_.shell_terms()) m.works.plastic += term->dissipated();
+  m.works.plastic = model_.plastic_dissipated();
   if (model_.contacts && model_.friction > 0) m.works.friction = model_.contacts->friction_dissipated();
   if (model_.links && model_.links->softens()) m.works.fracture += model_.links->dissipated();
   for (std::size_t i = 0; i < model_.mass.size(); ++i) m.kinetic += 0.5 * model_.mass[i] * state_.v.at(i).squaredNorm();
-  Field dead(state_.x.size());
-  for (const Load& load : loads_)
-    if (load.pushes)
-      for (std::size_t k = 0; k < load.nodes.size(); ++k) dead.add(load.nodes[k], load.factor * load.force[k]);
+  const Field dead = pushes();
   solver_.set_dead_forces(dead);
-  solver_.set_anchors({}, Field());
-  planned_ = 0;
   solver_.evaluate(state_.x, work_);
   const Field& f = solver_.force();
   m.load_force.assign(loads_.size(), Vec2::Zero());

@@ -21,6 +21,7 @@ class ImplicitStepper : public Stepper {
   std::vector<WallBreak> take_wall_breaks() final { return {}; }
   const std::vector<std::uint8_t>& fully_held() const final { return fully_held_; }
   bool implicit() const final { return true; }
+  void forget() final { solver_.forget(); }
   void save(ArraySet& restart) const override;
   void restore(const ArraySet& restart) override;
   const EquilibriumSolver& solver() const { return solver_; }
@@ -39,7 +40,6 @@ class ImplicitStepper : public Stepper {
   const State& state() const { return state_; }
   Field& velocity() { return state_.v; }
   const Model& model() const { return model_; }
-  double energy(const Field& x) const;
   /// Forces of the terms where the step was solved [N].
   const Field& terms_force() const { return force_; }
   /// Velocity that loads prescribe in this step, in components that they hold [m/s].
@@ -50,6 +50,7 @@ class ImplicitStepper : public Stepper {
   bool held(Index node, int component) const { return solver_.free().row(node, component) < 0; }
 
  private:
+  Field pushes() const;
   void commit_and_break();
 
   Model& model_;

@@ -38,26 +38,22 @@ QuasiStatic::QuasiStatic(Model& model, const std::vector<Load>& loads, const Loa
   trusted_ = settings.longest;
   softens_ = model.links && model.links->softens();
   if (softens_) works_.fracture = -model.links->dissipated();
-  dissipates_ = model.friction > 0;
-  for (const ShellTerm* term : model.shell_terms()) dissipates_ = dissipates_ || term->plastic();
-  Index count = 0;
-  for (double l : model.sample.rest_length)
-    if (l > 0) segment_ += l, ++count;
-  segment_ /= std::max<Index>(1, count);
+  dissipates_ = model.friction > 0 || model.yields();
+}
+
+Field QuasiStatic::pushes(double time) const {
+  Field dead(x_.size());
+  add_pushes(
+      loads_, [&](const Load& load) { return path_.force_factor(load, time); }, dead);
+  return dead;
 }
 
 /// Puts what is held where it is at that time, and sets forces and pressures.
 void QuasiStatic::prescribe(double time, Field& x) {
   std::vector<Vec2> way;
-  Field dead(x.size());
-  for (const Load& load : loads_) {
-    way.push_back(path_.way(load, time));
-    if (!load.pushes) continue;
-    const double factor = path_.force_factor(load, time);
-    for (std::size_t k = 0; k < load.nodes.size(); ++k) dead.add(load.nodes[k], factor * load.force[k]);
-  }
+  for (const Load& load : loads_) way.push_back(path_.way(load, time));
   for (const Held& h : held_) (h.component == 0 ? x.x : x.y)[h.node] = h.origin + way[h.load][h.component];
-  solver_.set_dead_forces(dead);
+  solver_.set_dead_forces(pushes(time));
   for (const PressureHistory& history : model_.pressure_histories)
     if (model_.core->present(history.cell)) model_.core->set_pressure(history.cell, history.at(time));
 }
@@ -67,14 +63,8 @@ double QuasiStatic::criterion(const Field& x) {
   return model_.rupture ? std::max(links, model_.rupture->most_loaded(x, wall_work_).zeta) : links;
 }
 
-double QuasiStatic::energy(const Field& x) const {
-  double sum = 0;
-  for (const Term* term : model_.terms()) sum += term->energy(x);
-  return sum;
-}
-
 double QuasiStatic::potential(const Field& x) const {
-  double sum = energy(x);
+  double sum = model_.energy(x);
   for (std::size_t i = 0; i < x.size(); ++i) sum -= dead_.at(i).dot(x.at(i));
   return sum;
 }
@@ -93,10 +83,9 @@ bool QuasiStatic::hand_over_softened() {
     const std::int64_t place = static_cast<std::int64_t>(breaks_.size()) - first;
     BreakAtRest event;
     event.link = softened;
+    model_.hand_over(event.link, x_, start_time_ + time_);
+    works_.fracture += event.link.energy;
     record(event, place);
-    model_.links->set_break_time(softened.link, start_time_ + time_);
-    if (model_.contacts) model_.contacts->release(softened.link, x_, softened.friction_force);
-    works_.fracture += softened.energy;
   }
   if (model_.links->breaks().empty()) return false;
   ++avalanches_;
@@ -134,11 +123,7 @@ void QuasiStatic::book_pressures(double time) {
 /// The configuration at which the solver has just arrived becomes the present one.
 void QuasiStatic::accept(double time, Field x) {
   const Field& f = solver_.force();
-  Field dead(x.size());
-  for (const Load& load : loads_)
-    if (load.pushes)
-      for (std::size_t k = 0; k < load.nodes.size(); ++k)
-        dead.add(load.nodes[k], path_.force_factor(load, time) * load.force[k]);
+  Field dead = pushes(time);
   for (std::size_t k = 0; k < held_.size(); ++k) {
     const Held& h = held_[k];
     const double reaction = -f.at(h.node)[h.component];
@@ -190,7 +175,7 @@ Eigen::VectorXd QuasiStatic::first_motion(double increment) {
   double farthest = 0;
   for (const Load& load : loads_)
     farthest = std::max(farthest, (path_.way(load, time_ + increment) - path_.way(load, time_)).norm());
-  const double probe = std::min(1.0, farthest > 0 ? kProbe * segment_ / farthest : 1e-3);
+  const double probe = std::min(1.0, farthest > 0 ? kProbe * solver_.mean_segment() / farthest : 1e-3);
   Field moved = x_;
   prescribe(time_ + probe * increment, moved);
   solver_.evaluate(moved, work_);
@@ -253,10 +238,11 @@ void QuasiStatic::load_towards(double end, const std::function<bool()>& go_on) {
       const double z = criterion(there);
       const bool at_last = high > 0 && high - low < kShortest * h;
       if (z <= settings_.load_tolerance || at_last || tries > kMostTries) {
-        const double left_before = softens_ ? works_.loads + works_.pressure - energy(x_) : 0.0;
+        const double left_before = softens_ ? works_.loads + works_.pressure - model_.energy(x_) : 0.0;
         accept(step == h && h == target - time_ ? target : time_ + step, std::move(there));
         trusted_ = std::max(trusted_, 2 * step);
-        if (softens_) works_.released += std::max(0.0, works_.loads + works_.pressure - energy(x_) - left_before);
+        if (softens_)
+          works_.released += std::max(0.0, works_.loads + works_.pressure - model_.energy(x_) - left_before);
         bring_to_rest();
         critical_ = z >= -settings_.load_tolerance;
         break;
@@ -315,8 +301,8 @@ void QuasiStatic::break_most_loaded(std::int64_t place) {
 // The bar, the hinges at its ends and the core of its cell end; links beside it get another frame, or none; contact loses a segment, and
 // ends meet what they ignored. What all of them held, and hold no more, is the energy of the break.
 void QuasiStatic::break_wall(const WallRupture::Loaded& bar, std::int64_t place) {
-  solver_.forget();
-  const double before = energy(x_);
+  solver_.drop_factor();
+  const double before = model_.energy(x_);
   const double now = start_time_ + time_;
   BreakAtRest event;
   event.link.link = -1;
@@ -338,7 +324,7 @@ void QuasiStatic::break_wall(const WallRupture::Loaded& bar, std::int64_t place)
     links->follow(model_.rupture->broken());
   }
   if (model_.contacts) model_.contacts->lose(bar.bar, x_);
-  const double lost = before - energy(x_);
+  const double lost = before - model_.energy(x_);
   potential_ -= lost;
   event.wall.energy = lost + event.wall.pressure_work - of_links;
   works_.fracture += event.wall.energy + of_links;
@@ -348,18 +334,10 @@ void QuasiStatic::break_wall(const WallRupture::Loaded& bar, std::int64_t place)
 }
 
 void QuasiStatic::break_link(Index link, std::int64_t place) {
-  CohesiveLinks& links = *model_.links;
-  Contacts* const contacts = model_.contacts.get();
   solver_.drop_link(link);
-  const double ignoring = contacts ? contacts->pressing_across(link, x_) : 0.0;
   BreakAtRest event;
-  event.link = links.break_at_rest(link, x_);
-  links.set_break_time(link, start_time_ + time_);
-  if (contacts) {
-    const double rubbing = contacts->release(link, x_, event.link.friction_force);
-    const double pressing = contacts->pressing_across(link, x_) - links.left_to_contact(event.link, x_);
-    event.link.energy -= pressing - ignoring + rubbing - links.left_to_friction(event.link);
-  }
+  event.link = model_.links->break_at_rest(link, x_);
+  model_.hand_over(event.link, x_, start_time_ + time_);
   works_.fracture += event.link.energy;
   potential_ -= event.link.energy;
   record(event, place);
@@ -399,6 +377,13 @@ void QuasiStatic::fall(const std::function<bool()>& go_on) {
     }
   }
   ++avalanches_;
+}
+
+// How far a search may go at once depends on which contacts are listed.
+void QuasiStatic::forget() {
+  solver_.forget();
+  trusted_ = settings_.longest;
+  if (model_.contacts) model_.contacts->rebuild(x_);
 }
 
 std::vector<Vec2> QuasiStatic::load_forces() const {

@@ -69,7 +69,7 @@ class QuasiStatic {
   Field load_force_on_nodes() const;
   const EquilibriumSolver& solver() const { return solver_; }
   /// See EquilibriumSolver::forget.
-  void forget() { solver_.forget(), trusted_ = settings_.longest; }
+  void forget();
 
   void save(ArraySet& restart) const;
   void restore(const ArraySet& restart);
@@ -86,7 +86,7 @@ class QuasiStatic {
   void prescribe(double time, Field& x);
   bool try_at(double time, Field& x);
   void accept(double time, Field x);
-  double energy(const Field& x) const;
+  Field pushes(double time) const;
   double potential(const Field& x) const;
   double criterion(const Field& x);
   void commit();
@@ -112,7 +112,6 @@ class QuasiStatic {
   LinkForces link_work_;
   ShellScratch wall_work_;
   double start_time_ = 0, time_ = 0;
-  double segment_ = 0;         // mean length [m]
   double trusted_ = 0;         // increment of time that a search may ask for [s]
   double potential_ = 0;       // of the accepted configuration: energy less the work of dead forces [J]
   std::vector<double> lever_;  // of prescribed pressures, at the accepted configuration [J/Pa]

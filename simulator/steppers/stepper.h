@@ -53,6 +53,9 @@ class Stepper {
   /// Whether steps longer than the stable limit of an explicit scheme are allowed.
   virtual bool implicit() const { return false; }
 
+  /// Forgets what a run that goes on from here could not know.
+  virtual void forget() {}
+
   virtual void save(ArraySet& restart) const = 0;
   virtual void restore(const ArraySet& restart) = 0;
 };

@@ -422,7 +422,7 @@ Works VelocityVerlet::works_at_start() const {
 Measurement VelocityVerlet::measured_step(double dt, double kick, Field* force_on_node) {
   // History that moves in this step belongs to its end.
   Works history = booked_;
-  for (const ShellTerm* term : shell_terms_) history.plastic += term->dissipated();
+  history.plastic += model_.plastic_dissipated();
   if (model_.contacts && model_.friction > 0) history.friction = model_.contacts->friction_dissipated();
   if (model_.links)
     history.fracture += model_.links->dissipated();  // that of a broken link has been booked with its break

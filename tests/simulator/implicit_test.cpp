@@ -22,11 +22,7 @@ struct ImplicitRig {
         model(build_model(sample, stage, state.x)),
         loads(std::move(with)),
         stepper(*model, loads, state, kResidual, more...) {}
-  double energy() const {
-    double sum = 0;
-    for (const Term* term : model->terms()) sum += term->energy(state.x);
-    return sum;
-  }
+  double energy() const { return model->energy(state.x); }
   double kinetic() const {
     double sum = 0;
     for (std::size_t i = 0; i < model->mass.size(); ++i) sum += 0.5 * model->mass[i] * state.v.at(i).squaredNorm();

@@ -87,11 +87,7 @@ struct Rig {
         loads(std::move(with)),
         stepper(*model, loads, state, threads) {}
 
-  double energy() const {
-    double sum = 0;
-    for (const Term* term : model->terms()) sum += term->energy(state.x);
-    return sum;
-  }
+  double energy() const { return model->energy(state.x); }
 
   State state;
   std::unique_ptr<Model> model;
