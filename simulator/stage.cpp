@@ -1,12 +1,29 @@
 #include "simulator/stage.h"
 
-#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
 
+#include "generator/sample/errors.h"
 #include "simulator/choose_stepper.h"
 #include "simulator/stage_run.h"
 #include "simulator/static_stage.h"
 
 namespace lamella {
+namespace {
+
+/// The stage's model at x, with the history of `start` (empty: none).
+std::unique_ptr<Model> restored_model(const Sample& sample, const Stage& stage, const Field& x, const ArraySet& start) {
+  auto model = build_model(sample, stage, x);
+  if (start.find("bar_broken")) {
+    if (!model->rupture) model->add_rupture({});
+    model->rupture->restore(start);
+    if (model->links && model->rupture->broken().count() > 0) model->links->follow(model->rupture->broken());
+  }
+  for (Term* term : model->terms()) term->restore(start);
+  return model;
+}
+
+}  // namespace
 
 std::unique_ptr<StageDriver> make_stage(const Sample& sample, const Scene& scene, int stage, const ArraySet& start,
                                         StageStart how) {
@@ -20,25 +37,98 @@ std::unique_ptr<StageDriver> make_stage(const Sample& sample, const Scene& scene
   return driver;
 }
 
-void describe_gauge(const Gauge& gauge, const Stage& stage, const std::string& prefix, Provenance& p) {
-  if (!stage.loading) return;
-  p[prefix + "axis"] = gauge.axis == 0 ? "x" : "y";
-  p[prefix + "kind"] = stage.loading->kind;
-  p[prefix + "gauge_length"] = fmt::format("{:.17g}", gauge.length);
-  p[prefix + "width"] = fmt::format("{:.17g}", gauge.width);
-  p[prefix + "depth"] = fmt::format("{:.17g}", gauge.depth);
-  p[prefix + "grip_speed"] = fmt::format("{:.17g}", gauge.speed);
+StageDriver::StageDriver(const Sample& sample, const Scene& scene, int stage, const ArraySet& start, StageStart how)
+    : sample_(sample),
+      scene_(scene),
+      stage_(scene.stages[stage]),
+      index_(stage),
+      resumed_(how == StageStart::kResumed),
+      start_x_(start.find("x") ? field_from(start.doubles("x")) : field_of(sample.x)) {
+  if (start.find("clock")) {
+    start_time_ = start.doubles("clock").at(0);
+    start_step_ = static_cast<std::int64_t>(start.doubles("clock").at(1));
+  }
+  model_ = restored_model(sample, stage_, start_x_, start);
+  loads_ = build_loads(sample, stage_);
+  load_columns_ = load_columns(loads_);
+  gauge_ = measure_gauge(sample, stage_, loads_);
+  stops_.emplace(stage_, *model_, loads_, start_x_);
 }
 
-std::unique_ptr<Model> restored_model(const Sample& sample, const Stage& stage, const Field& x, const ArraySet& start) {
-  auto model = build_model(sample, stage, x);
-  if (start.find("bar_broken")) {
-    if (!model->rupture) model->add_rupture({});
-    model->rupture->restore(start);
-    if (model->links && model->rupture->broken().count() > 0) model->links->follow(model->rupture->broken());
+void StageDriver::require_end(double duration) const {
+  if (!(duration > 0) || !std::isfinite(duration))
+    throw SceneError(fmt::format(
+        "stop.time: stage '{}' has no [loading] and no stop.time, and would run for ever; give a time", stage_.name));
+}
+
+void StageDriver::columns(std::vector<std::string>& names, std::vector<std::string>& units) const {
+  const auto add = [&](const std::string& name, const char* unit) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name), units.emplace_back(unit);
+  };
+  add("time", "s"), add("stage", "1");
+  if (stage_.loading) add("strain", "1"), add("stress", "Pa"), add("force_a", "N"), add("force_b", "N");
+  for (const LoadColumn& column : load_columns_) add(column.name, column.unit.c_str());
+  for (const Term* term : model_->terms()) add("energy_" + term->name(), "J");
+  if (moves()) add("kinetic", "J");
+  add("work", "J");
+  if (moves() && (model_->drag_rate > 0 || model_->dashpots || model_->contact_damping > 0)) add("damping", "J");
+  if (model_->friction > 0) add("friction", "J");
+  if (model_->yields()) add("plastic", "J");
+  const bool links_break = model_->links && (model_->links->breakable() || model_->rupture);
+  if (links_break || model_->rupture) add("fracture", "J");
+  if (!moves() && (links_break || model_->rupture)) add("released", "J");
+  if (links_break) add("broken_links", "1");
+  if (model_->rupture) add("broken_bars", "1");
+  add("residual", "1"), add("unbalanced", "1");
+}
+
+void StageDriver::describe(Provenance& p) const {
+  if (stage_.loading) {
+    p[prefix() + "axis"] = gauge_.axis == 0 ? "x" : "y";
+    p[prefix() + "kind"] = stage_.loading->kind;
+    p[prefix() + "gauge_length"] = fmt::format("{:.17g}", gauge_.length);
+    p[prefix() + "width"] = fmt::format("{:.17g}", gauge_.width);
+    p[prefix() + "depth"] = fmt::format("{:.17g}", gauge_.depth);
+    p[prefix() + "grip_speed"] = fmt::format("{:.17g}", gauge_.speed);
   }
-  for (Term* term : model->terms()) term->restore(start);
-  return model;
+  std::string text;
+  for (const auto& line : summary()) text += line + "\n";
+  p[prefix() + "summary"] = text;
+}
+
+std::string StageDriver::term_names() const {
+  std::string names;
+  for (const Term* term : model_->terms()) names += (names.empty() ? "" : ", ") + term->name();
+  return names;
+}
+
+void StageDriver::say_why(std::vector<std::string>& lines) const {
+  if (!chosen_.empty()) lines.push_back("  " + chosen_);
+}
+
+void StageDriver::report(const SimulateOptions& options, double done, double time, double strain, double stress) const {
+  if (!options.progress) return;
+  RunProgress p;
+  p.stage = index_, p.stages = static_cast<int>(scene_.stages.size());
+  p.stage_name = stage_.name;
+  p.done = (index_ + std::min(1.0, done)) / p.stages;
+  p.time = time, p.strain = strain, p.stress = stress, p.broken = broken();
+  options.progress(p);
+}
+
+void StageDriver::add_output(const Field& x, ArraySet& frame) const {
+  for (const Term* term : model_->terms()) term->add_output(x, frame);
+  if (model_->rupture) model_->rupture->add_output(frame);
+}
+
+void StageDriver::save_terms(ArraySet& restart) const {
+  for (const Term* term : model_->terms()) term->save(restart);
+  if (model_->rupture) model_->rupture->save(restart);
+}
+
+void ResponseRow::put(const std::string& name, double value) {
+  const auto at = std::find(columns_.begin(), columns_.end(), name);
+  if (at != columns_.end()) values_[at - columns_.begin()] = value;
 }
 
 }  // namespace lamella

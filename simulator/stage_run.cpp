@@ -33,26 +33,11 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 }  // namespace
 
 StageRun::StageRun(const Sample& sample, const Scene& scene, int stage, const ArraySet& start, StageStart how)
-    : sample_(sample),
-      scene_(scene),
-      stage_(scene.stages[stage]),
-      index_(stage),
-      resumed_(how == StageStart::kResumed) {
-  const std::size_t nodes = sample.nodes();
-  state_.v = Field(nodes);
-  if (start.find("x")) {
-    state_.x = field_from(start.doubles("x"));
-    state_.v = field_from(start.doubles("v"));
-    const auto& clock = start.doubles("clock");
-    state_.time = clock.at(0);
-    state_.step = static_cast<std::int64_t>(clock.at(1));
-  } else {
-    state_.x = field_of(sample.x);
-  }
-  model_ = restored_model(sample, stage_, state_.x, start);
-  loads_ = build_loads(sample, stage_);
-  load_columns_ = load_columns(loads_);
-  gauge_ = measure_gauge(sample, stage_, loads_);
+    : StageDriver(sample, scene, stage, start, how),
+      state_{.x = start_x_,
+             .v = start.find("v") ? field_from(start.doubles("v")) : Field(start_x_.size()),
+             .time = start_time_,
+             .step = start_step_} {
   if (stage_.loading) course_.emplace(*stage_.loading, gauge_);
   const RunScene& asked = stage_.run;
   if (asked.stepper == "backward_euler")
@@ -62,14 +47,10 @@ StageRun::StageRun(const Sample& sample, const Scene& scene, int stage, const Ar
   else
     stepper_ = std::make_unique<VelocityVerlet>(*model_, loads_, state_, asked.threads);
 
-  stops_.emplace(stage_, *model_, loads_, state_.x);
-  start_time_ = state_.time;
   if (course_) duration_ = course_->duration();
   if (stage_.stop.time)
     duration_ = course_ && !stage_.loading->step ? std::min(duration_, *stage_.stop.time) : *stage_.stop.time;
-  if (!(duration_ > 0) || !std::isfinite(duration_))
-    throw SceneError(fmt::format(
-        "stop.time: stage '{}' has no [loading] and no stop.time, and would run for ever; give a time", stage_.name));
+  require_end(duration_);
   const int frames = std::max(1, stage_.output.frames);
   rows_per_frame_ = std::max(1, stage_.output.response / frames);
   row_interval_ = duration_ / (static_cast<double>(frames) * static_cast<double>(rows_per_frame_));
@@ -87,8 +68,6 @@ StageRun::StageRun(const Sample& sample, const Scene& scene, int stage, const Ar
     stops_->set_history(
         {.peak_stress = d.at(5), .loosens = start.find("loosens") && start.doubles("loosens").at(0) != 0});
   }
-  if (model_->links) broken_ = model_->links->broken();
-  if (model_->rupture) broken_bars_ = model_->rupture->broken().count();
   for (const auto& history : model_->pressure_histories)
     model_->core->set_pressure(history.cell, history.at(state_.time - start_time_));
   plan_step();
@@ -126,31 +105,9 @@ void StageRun::plan_step() {
   dt_ = row_interval_ / static_cast<double>(steps_per_row_);
 }
 
-void StageRun::columns(std::vector<std::string>& names, std::vector<std::string>& units) const {
-  const auto add = [&](const std::string& name, const char* unit) {
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name), units.emplace_back(unit);
-  };
-  add("time", "s"), add("stage", "1");
-  if (course_) add("strain", "1"), add("stress", "Pa"), add("force_a", "N"), add("force_b", "N");
-  for (const LoadColumn& column : load_columns_) add(column.name, column.unit.c_str());
-  for (const Term* term : model_->terms()) add("energy_" + term->name(), "J");
-  add("kinetic", "J"), add("work", "J");
-  if (model_->drag_rate > 0 || model_->dashpots || model_->contact_damping > 0) add("damping", "J");
-  if (model_->friction > 0) add("friction", "J");
-  bool plastic = false;
-  for (const ShellTerm* term : model_->shell_terms()) plastic = plastic || term->plastic();
-  if (plastic) add("plastic", "J");
-  const bool links_break = model_->links && (model_->links->breakable() || model_->rupture);
-  if (links_break || model_->rupture) add("fracture", "J");
-  if (links_break) add("broken_links", "1");
-  if (model_->rupture) add("broken_bars", "1");
-  add("residual", "1"), add("unbalanced", "1");
-}
-
 std::vector<std::string> StageRun::summary() const {
   std::vector<std::string> lines;
-  std::string terms;
-  for (const Term* term : model_->terms()) terms += (terms.empty() ? "" : ", ") + term->name();
+  std::string terms = term_names();
   if (model_->dashpots) terms += ", dashpots";
   if (model_->drag_rate > 0) terms += ", drag";
   lines.push_back(fmt::format("stage '{}': {}", stage_.name, terms));
@@ -201,14 +158,10 @@ std::vector<std::string> StageRun::summary() const {
 }
 
 void StageRun::describe(Provenance& p) const {
-  const std::string prefix = index_ == 0 ? "" : fmt::format("stage_{}_", index_);
-  describe_gauge(gauge_, stage_, prefix, p);
-  p[prefix + "time_step"] = fmt::format("{:.17g}", dt_);
-  p[prefix + "stable_time_step"] = fmt::format("{:.17g}", stable_.dt);
-  p[prefix + "step_limited_by"] = fmt::format("node {}: {}", stable_.node, stable_.limited_by);
-  std::string text;
-  for (const auto& line : summary()) text += line + "\n";
-  p[prefix + "summary"] = text;
+  StageDriver::describe(p);
+  p[prefix() + "time_step"] = fmt::format("{:.17g}", dt_);
+  p[prefix() + "stable_time_step"] = fmt::format("{:.17g}", stable_.dt);
+  p[prefix() + "step_limited_by"] = fmt::format("node {}: {}", stable_.node, stable_.limited_by);
 }
 
 void StageRun::set_loads(double dt) {
@@ -274,8 +227,7 @@ ArraySet StageRun::restart_arrays() const {
   if (course_) out.add({"course", "1", "model", 1, course_->save()});
   if (stage_.stop.compaction)
     out.add({"loosens", "1", "model", 1, std::vector<double>{stops_->history().loosens ? 1.0 : 0.0}});
-  for (const Term* term : model_->terms()) term->save(out);
-  if (model_->rupture) model_->rupture->save(out);
+  save_terms(out);
   stepper_->save(out);
   return out;
 }
@@ -306,7 +258,6 @@ void StageRun::write_events(TrajectoryWriter& writer) {
          .f_t = b.f_t,
          .mode_mix = model_->links->mode_mix_of(b),
          .energy = b.energy});
-    ++broken_;
   }
   for (const WallBreak& b : stepper_->take_wall_breaks()) {
     add({.time = model_->rupture->break_time(b.bar),
@@ -315,7 +266,6 @@ void StageRun::write_events(TrajectoryWriter& writer) {
          .position = b.position,
          .f_n = b.tension,
          .energy = b.energy});
-    ++broken_bars_;
   }
   std::stable_sort(events.begin(), events.end(), [](const Event& a, const Event& b) { return a.time < b.time; });
   for (const Event& event : events) writer.add_event(event);
@@ -324,10 +274,6 @@ void StageRun::write_events(TrajectoryWriter& writer) {
 std::string StageRun::run(TrajectoryWriter& writer, const SimulateOptions& options,
                           const std::vector<std::string>& columns, RunFacts& facts) {
   std::optional<std::string> ended;
-  const auto index_of = [&](const std::string& name) -> std::ptrdiff_t {
-    const auto at = std::find(columns.begin(), columns.end(), name);
-    return at == columns.end() ? -1 : at - columns.begin();
-  };
   if (last_dt_ == 0) last_dt_ = dt_;
   while (true) {
     // A row: weigh the configuration, in the first step of the interval that it starts. Every so many rows it is a frame too.
@@ -351,10 +297,12 @@ std::string StageRun::run(TrajectoryWriter& writer, const SimulateOptions& optio
     if (frame) {
       arrays.add({"x", "m", "node", 2, rows_from(state_.x)});
       arrays.add({"v", "m/s", "node", 2, rows_from(state_.v)});
-      for (const Term* term : model_->terms()) term->add_output(state_.x, arrays);
-      if (model_->rupture) model_->rupture->add_output(arrays);
+      add_output(state_.x, arrays);
       restart = restart_arrays();
+      stepper_->forget();
     }
+    // Breaks of the step that weighs this row come after it.
+    const int broken_at_row = broken_links(), bars_at_row = broken_bars();
     const auto reason = stops_->packed(state_.x, state_.time);
     set_loads(dt_);
     const Measurement m = stepper_->measured_step(dt_, 0.5 * (dt_ + last_dt_), exerted.size() > 0 ? &exerted : nullptr);
@@ -378,10 +326,8 @@ std::string StageRun::run(TrajectoryWriter& writer, const SimulateOptions& optio
     row.residual = largest_work_ > 0 ? std::abs(row.residual) / largest_work_ : 0.0;
 
     if (!resumed_) {
-      std::vector<double> values(columns.size(), 0.0);
-      const auto put = [&](const std::string& name, double value) {
-        if (const auto at = index_of(name); at >= 0) values[at] = value;
-      };
+      ResponseRow response(columns);
+      const auto put = [&](const std::string& name, double value) { response.put(name, value); };
       put("time", time), put("stage", index_), put("strain", strain), put("stress", row.stress);
       put("force_a", row.force_a), put("force_b", row.force_b);
       for (std::size_t k = 0; k < load_columns_.size(); ++k) {
@@ -393,9 +339,9 @@ std::string StageRun::run(TrajectoryWriter& writer, const SimulateOptions& optio
       put("kinetic", m.kinetic), put("work", row.works.loads + row.works.pressure - base_[0]),
           put("damping", row.works.damping);
       put("friction", row.works.friction), put("plastic", row.works.plastic), put("fracture", row.works.fracture);
-      put("broken_links", broken_), put("broken_bars", broken_bars_), put("residual", row.residual),
+      put("broken_links", broken_at_row), put("broken_bars", bars_at_row), put("residual", row.residual),
           put("unbalanced", row.unbalanced);
-      writer.add_response(values);
+      writer.add_response(response.values());
       facts.residual = std::max(facts.residual, row.residual);
     }
     if (frame && !resumed_) {
@@ -404,20 +350,13 @@ std::string StageRun::run(TrajectoryWriter& writer, const SimulateOptions& optio
     }
     if (resumed_) last_ = std::move(restart);
     resumed_ = false;
-    if (options.progress) {
-      RunProgress p;
-      p.stage = index_, p.stages = static_cast<int>(scene_.stages.size());
-      p.stage_name = stage_.name;
-      p.done = (index_ + std::min(1.0, (time - start_time_) / duration_)) / p.stages;
-      p.time = time, p.strain = strain, p.stress = row.stress, p.broken = broken_ + broken_bars_;
-      options.progress(p);
-    }
+    report(options, (time - start_time_) / duration_, time, strain, row.stress);
     facts.frame_seconds += seconds_since(row_start);
     if (ended) return *ended;
     ended = course_ && course_->finished() ? std::optional(fmt::format("strain {:.4g} reached", strain))
                                            : stops_->reason({.since = time - start_time_,
                                                              .stress = row.stress,
-                                                             .broken = broken_ + broken_bars_,
+                                                             .broken = broken_at_row + bars_at_row,
                                                              .unbalanced = row.unbalanced,
                                                              .first = row_ == 0,
                                                              .load_force = row.load_force,

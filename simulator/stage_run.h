@@ -19,14 +19,13 @@ class StageRun final : public StageDriver {
  public:
   StageRun(const Sample& sample, const Scene& scene, int stage, const ArraySet& start, StageStart how);
 
-  void columns(std::vector<std::string>& names, std::vector<std::string>& units) const override;
   std::vector<std::string> summary() const override;
   void describe(Provenance& provenance) const override;
   std::string run(TrajectoryWriter& writer, const SimulateOptions& options, const std::vector<std::string>& columns,
                   RunFacts& facts) override;
-  const ArraySet& last() const override { return last_; }
 
  private:
+  bool moves() const override { return true; }
   struct Row;
   void plan_step();
   void set_loads(double dt);
@@ -36,22 +35,12 @@ class StageRun final : public StageDriver {
   ArraySet restart_arrays() const;
   void write_events(TrajectoryWriter& writer);
 
-  const Sample& sample_;
-  const Scene& scene_;
-  const Stage& stage_;
-  int index_;
   State state_;
-  std::unique_ptr<Model> model_;
-  std::vector<Load> loads_;
-  std::vector<LoadColumn> load_columns_;
-  Gauge gauge_;
   std::optional<LoadingCourse> course_;
   std::unique_ptr<Stepper> stepper_;
   StableStep stable_;
-  bool resumed_ = false;
 
   // clock of the stage: rows are equally spaced, frames fall on rows, steps divide the time between rows
-  double start_time_ = 0;    // [s]
   double row_interval_ = 0;  // [s]
   std::int64_t row_ = 0;     // rows done
   std::int64_t rows_per_frame_ = 1;
@@ -59,13 +48,8 @@ class StageRun final : public StageDriver {
   double dt_ = 0, last_dt_ = 0;  // [s]
   double duration_ = 0;          // expected, or the limit [s]
   // history of the stage
-  std::optional<StopConditions> stops_;
-  int broken_ = 0, broken_bars_ = 0;
-  double largest_work_ = 0;             // [J]
-  std::vector<double> base_;            // ledger at the first row: see weigh()
   std::vector<double> pressure_lever_;  // of prescribed pressures at the last step [J/Pa]
   double pressure_work_ = 0;            // [J]
-  ArraySet last_;
 };
 
 }  // namespace lamella

@@ -13,26 +13,10 @@
 namespace lamella {
 
 StaticStage::StaticStage(const Sample& sample, const Scene& scene, int stage, const ArraySet& start, StageStart how)
-    : sample_(sample),
-      scene_(scene),
-      stage_(scene.stages[stage]),
-      index_(stage),
-      resumed_(how == StageStart::kResumed) {
+    : StageDriver(sample, scene, stage, start, how), first_step_(start_step_), step_(start_step_) {
   refuse_what_moves();
-  Field x = start.find("x") ? field_from(start.doubles("x")) : field_of(sample.x);
-  if (start.find("clock")) {
-    start_time_ = start.doubles("clock").at(0);
-    step_ = first_step_ = static_cast<std::int64_t>(start.doubles("clock").at(1));
-  }
-  model_ = restored_model(sample, stage_, x, start);
-  loads_ = build_loads(sample, stage_);
-  load_columns_ = load_columns(loads_);
-  gauge_ = measure_gauge(sample, stage_, loads_);
   path_.emplace(stage_, gauge_);
-  if (!(path_->duration() > 0) || !std::isfinite(path_->duration()))
-    throw SceneError(fmt::format(
-        "stop.time: stage '{}' has no [loading] and no stop.time, and would run for ever; give a time", stage_.name));
-  stops_.emplace(stage_, *model_, loads_, x);
+  require_end(path_->duration());
   if (resumed_) {
     const auto& d = start.doubles("static_stage");
     start_time_ = d.at(0), frame_ = static_cast<std::int64_t>(d.at(1)), largest_work_ = d.at(2);
@@ -41,7 +25,7 @@ StaticStage::StaticStage(const Sample& sample, const Scene& scene, int stage, co
     base_ = start.doubles("ledger_base");
   }
   const RunScene& run = stage_.run;
-  stepper_ = std::make_unique<QuasiStatic>(*model_, loads_, *path_, std::move(x), start_time_,
+  stepper_ = std::make_unique<QuasiStatic>(*model_, loads_, *path_, start_x_, start_time_,
                                            QuasiStaticSettings{.residual = run.residual,
                                                                .load_tolerance = run.load_tolerance,
                                                                .all_at_once = run.breaking == "all_at_once",
@@ -61,37 +45,9 @@ void StaticStage::refuse_what_moves() const {
   if (!faults.empty()) throw SceneError(std::move(faults));
 }
 
-double StaticStage::plastic() const {
-  double sum = 0;
-  for (const ShellTerm* term : model_->shell_terms()) sum += term->dissipated();
-  return sum;
-}
-
-void StaticStage::columns(std::vector<std::string>& names, std::vector<std::string>& units) const {
-  const auto add = [&](const std::string& name, const char* unit) {
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name), units.emplace_back(unit);
-  };
-  add("time", "s"), add("stage", "1");
-  if (stage_.loading) add("strain", "1"), add("stress", "Pa"), add("force_a", "N"), add("force_b", "N");
-  for (const LoadColumn& column : load_columns_) add(column.name, column.unit.c_str());
-  for (const Term* term : model_->terms()) add("energy_" + term->name(), "J");
-  add("work", "J");
-  if (model_->friction > 0) add("friction", "J");
-  bool plastic = false;
-  for (const ShellTerm* term : model_->shell_terms()) plastic = plastic || term->plastic();
-  if (plastic) add("plastic", "J");
-  const bool links_break = model_->links && (model_->links->breakable() || model_->rupture);
-  if (links_break || model_->rupture) add("fracture", "J"), add("released", "J");
-  if (links_break) add("broken_links", "1");
-  if (model_->rupture) add("broken_bars", "1");
-  add("residual", "1"), add("unbalanced", "1");
-}
-
 std::vector<std::string> StaticStage::summary() const {
   std::vector<std::string> lines;
-  std::string terms;
-  for (const Term* term : model_->terms()) terms += (terms.empty() ? "" : ", ") + term->name();
-  lines.push_back(fmt::format("stage '{}' at rest: {}", stage_.name, terms));
+  lines.push_back(fmt::format("stage '{}' at rest: {}", stage_.name, term_names()));
   lines.push_back(fmt::format("  {} cells, {} nodes, {} links, {} unknowns", sample_.cells(), sample_.nodes(),
                               model_->links ? sample_.links.size() : 0, stepper_->solver().free().size()));
   say_why(lines);
@@ -107,14 +63,6 @@ std::vector<std::string> StaticStage::summary() const {
   if (model_->contact_damping > 0) idle += (idle.empty() ? "" : ", ") + std::string("contact damping");
   if (!idle.empty()) lines.push_back(fmt::format("  nothing moves, so that these do nothing: {}", idle));
   return lines;
-}
-
-void StaticStage::describe(Provenance& p) const {
-  const std::string prefix = index_ == 0 ? "" : fmt::format("stage_{}_", index_);
-  describe_gauge(gauge_, stage_, prefix, p);
-  std::string text;
-  for (const auto& line : summary()) text += line + "\n";
-  p[prefix + "summary"] = text;
 }
 
 void StaticStage::add_events(TrajectoryWriter& writer) {
@@ -139,11 +87,8 @@ std::optional<std::string> StaticStage::add_row(TrajectoryWriter& writer, const 
   const Field& x = stepper_->x();
   const double since = stepper_->time(), time = start_time_ + since, strain = path_->strain(since);
   check_health(*model_, x, time);
-  std::vector<double> values(columns.size(), 0.0);
-  const auto put = [&](const std::string& name, double value) {
-    const auto at = std::find(columns.begin(), columns.end(), name);
-    if (at != columns.end()) values[at - columns.begin()] = value;
-  };
+  ResponseRow row(columns);
+  const auto put = [&](const std::string& name, double value) { row.put(name, value); };
   double energy = 0;
   for (const Term* term : model_->terms()) {
     const double e = term->energy(x);
@@ -153,7 +98,8 @@ std::optional<std::string> StaticStage::add_row(TrajectoryWriter& writer, const 
   if (!std::isfinite(energy))
     throw SolverError(fmt::format("t = {:.6g} s: the elastic energy is no longer a number", time));
   const StaticWorks works = stepper_->works();
-  const double friction = model_->friction > 0 ? model_->contacts->friction_dissipated() : 0.0, flow = plastic();
+  const double friction = model_->friction > 0 ? model_->contacts->friction_dissipated() : 0.0,
+               flow = model_->plastic_dissipated();
   const double in = works.loads + works.pressure, out = energy + friction + flow + works.fracture + works.released;
   if (base_.empty()) base_ = {in, out};
   largest_work_ = std::max({largest_work_, std::abs(in - base_[0]), std::abs(energy - base_[1])});
@@ -167,18 +113,16 @@ std::optional<std::string> StaticStage::add_row(TrajectoryWriter& writer, const 
   for (const LoadColumn& c : load_columns_)
     put(c.name,
         c.displacement ? mean_displacement(sample_, x, loads_[c.load], c.component) : force[c.load][c.component]);
-  const int broken = model_->links ? static_cast<int>(model_->links->broken()) : 0;
-  const int broken_bars = model_->rupture ? static_cast<int>(model_->rupture->broken().count()) : 0;
   put("time", time), put("stage", index_), put("work", in - base_[0]);
   put("friction", friction), put("plastic", flow), put("fracture", works.fracture), put("released", works.released);
-  put("broken_links", broken), put("broken_bars", broken_bars), put("residual", residual),
+  put("broken_links", broken_links()), put("broken_bars", broken_bars()), put("residual", residual),
       put("unbalanced", stepper_->solver().residual());
-  writer.add_response(values);
+  writer.add_response(row.values());
   facts.residual = std::max(facts.residual, residual);
   ++rows_;
   return stops_->reason({.since = since,
                          .stress = stress_,
-                         .broken = broken + broken_bars,
+                         .broken = broken(),
                          .unbalanced = stepper_->solver().residual(),
                          .first = rows_ == 1,
                          .load_force = force,
@@ -194,8 +138,7 @@ void StaticStage::write_frame(TrajectoryWriter& writer) {
   frame.time = time, frame.step = step_, frame.stage = index_;
   frame.arrays.add({"x", "m", "node", 2, rows_from(x)});
   frame.arrays.add({"v", "m/s", "node", 2, std::vector<double>(2 * x.size(), 0.0)});
-  for (const Term* term : model_->terms()) term->add_output(x, frame.arrays);
-  if (model_->rupture) model_->rupture->add_output(frame.arrays);
+  add_output(x, frame.arrays);
   if (!loads_.empty()) frame.arrays.add({"load_force", "N", "node", 2, rows_from(stepper_->load_force_on_nodes())});
 
   ++frame_;
@@ -209,24 +152,11 @@ void StaticStage::write_frame(TrajectoryWriter& writer) {
        std::vector<double>{start_time_, static_cast<double>(frame_), largest_work_, static_cast<double>(first_step_),
                            stops_->history().peak_stress, stops_->history().loosens ? 1.0 : 0.0}});
   out.add({"ledger_base", "J", "model", 1, base_});
-  for (const Term* term : model_->terms()) term->save(out);
-  if (model_->rupture) model_->rupture->save(out);
+  save_terms(out);
   stepper_->save(out);
   last_ = std::move(out);
   writer.write_frame(frame, last_);
   last_frame_time_ = time;
-}
-
-void StaticStage::report(const SimulateOptions& options) const {
-  if (!options.progress) return;
-  RunProgress p;
-  p.stage = index_, p.stages = static_cast<int>(scene_.stages.size());
-  p.stage_name = stage_.name;
-  p.done = (index_ + std::min(1.0, stepper_->time() / path_->duration())) / p.stages;
-  p.time = start_time_ + stepper_->time(), p.strain = path_->strain(stepper_->time()), p.stress = stress_;
-  p.broken = model_->links ? static_cast<int>(model_->links->broken()) : 0;
-  if (model_->rupture) p.broken += static_cast<int>(model_->rupture->broken().count());
-  options.progress(p);
 }
 
 std::string StaticStage::run(TrajectoryWriter& writer, const SimulateOptions& options,
@@ -243,11 +173,14 @@ std::string StaticStage::run(TrajectoryWriter& writer, const SimulateOptions& op
         "{} equilibria by {} iterations: {} force evaluations, {} solutions, {} factorisations, {} links taken out of "
         "a factor",
         c.searches, c.iterations, c.forces, c.solves, c.factorizations, c.updates);
-    writer.set_provenance((index_ == 0 ? "" : fmt::format("stage_{}_", index_)) + "solver_cost", line);
+    writer.set_provenance(prefix() + "solver_cost", line);
     return why;
   };
   const auto count = [&] { step_ = first_step_ + stepper_->solver().cost().searches; };
   const double end = path_->duration();
+  const auto report_now = [&] {
+    report(options, stepper_->time() / end, start_time_ + stepper_->time(), path_->strain(stepper_->time()), stress_);
+  };
   const std::int64_t frames = std::max(1, stage_.output.frames);
   std::optional<std::string> ended;
   try {
@@ -266,7 +199,7 @@ std::string StaticStage::run(TrajectoryWriter& writer, const SimulateOptions& op
         add_events(writer);
         if (interrupted()) break;
         ended = add_row(writer, columns, facts);
-        report(options);
+        report_now();
       }
       if (!stepper_->over().empty()) ended = stepper_->over();
       const bool at_end = stepper_->time() >= end * (1 - 1e-12);
@@ -285,7 +218,7 @@ std::string StaticStage::run(TrajectoryWriter& writer, const SimulateOptions& op
       add_events(writer);
       if (!stepper_->over().empty()) continue;
       ended = add_row(writer, columns, facts);
-      report(options);
+      report_now();
     }
   } catch (const SolverError&) {
     // The last good state goes to disk, so that a run with other settings can go on from it.
