@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "postproc/quantities/material_constants.h"
+
 namespace lamella {
 
 FractureAnswer fracture_answer_of(const StudyRun& run) {
@@ -17,10 +19,7 @@ FractureAnswer fracture_answer_of(const StudyRun& run) {
   const auto& events = run.reader.events();
   if (!events.empty()) {
     // From its time: in time, an event's own strain is that of the row after it.
-    const std::vector<double> time = run.column("time");
-    const auto after = std::lower_bound(time.begin() + 1, time.end() - 1, events.front().time) - time.begin();
-    const double u = (events.front().time - time[after - 1]) / (time[after] - time[after - 1]);
-    answer.first_break_strain = (1 - u) * strain[after - 1] + u * strain[after];
+    answer.first_break_strain = value_at(run.column("time"), strain, events.front().time);
     answer.first_link = events.front().link;
   }
   const auto first = std::find_if(broken.begin(), broken.end(), [](double count) { return count > 0; });

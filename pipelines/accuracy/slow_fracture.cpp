@@ -129,17 +129,18 @@ Method at_rest(const std::string& name, const std::string& key, const std::vecto
 struct Damping {
   std::string name;
   double drag;
+  std::string stepper = "velocity_verlet";
 };
 
 Method in_time(const Damping& damping, double slowdown, std::size_t samples) {
   // A row costs as much as a step, and a fast run has few steps.
   const int rows = std::min(5000, static_cast<int>(1000 * slowdown));
   return {fmt::format("in time, {}, slowdown {:g}", damping.name, slowdown),
-          fmt::format("{:g}_{:g}", damping.drag, slowdown),
+          fmt::format("{}_{:g}_{:g}", damping.stepper, damping.drag, slowdown),
           fmt::format("in time, {}", damping.name),
           slowdown,
           {fmt::format("run.slowdown={:g}", slowdown), fmt::format("drag.rate={:g}", damping.drag),
-           fmt::format("output.response={}", rows)},
+           fmt::format("output.response={}", rows), fmt::format("run.stepper={}", damping.stepper)},
           samples};
 }
 
@@ -363,8 +364,11 @@ void accuracy_of_slow_fracture(StudyBench& bench) {
   const std::vector<Judged> strong =
       sweep({"strong damping", 5e5}, small ? Slowdowns{1, 10} : Slowdowns{1, 3, 10, 30, 100});
   const std::vector<Judged> over = sweep({"overdamped", 2e6}, small ? Slowdowns{10, 100} : Slowdowns{10, 30, 100});
+  // As long as the time between two rows: 1e-4 of strain, however slow.
+  const std::vector<Judged> implicit = sweep({"overdamped, backward Euler", 2e6, "backward_euler"},
+                                             small ? Slowdowns{100} : Slowdowns{10, 30, 100, 1000});
   std::vector<Judged> time;
-  for (const auto& list : {light, critical, strong, over}) time.insert(time.end(), list.begin(), list.end());
+  for (const auto& list : {light, critical, strong, over, implicit}) time.insert(time.end(), list.begin(), list.end());
 
   tell_the_setup(report, ensemble, cells);
   judged_table(report, rest);

@@ -9,6 +9,7 @@
 
 #include "pipelines/hard_cases/hard_cases.h"
 #include "pipelines/hard_cases/tools.h"
+#include "postproc/quantities/material_constants.h"
 
 namespace lamella::hard_cases {
 namespace {
@@ -22,13 +23,6 @@ std::vector<Load> rigid_blocks(const Sample& s, const Vec2& velocity) {
   }
   loads[1].velocity = velocity;
   return loads;
-}
-
-/// Value of a column at a time, linear between rows.
-double at_time(const std::vector<double>& time, const std::vector<double>& value, double when) {
-  const auto k = static_cast<std::size_t>(std::upper_bound(time.begin() + 1, time.end() - 1, when) - time.begin());
-  const double u = (when - time[k - 1]) / (time[k] - time[k - 1]);
-  return (1 - u) * value[k - 1] + u * value[k];
 }
 
 /// Two cells torn apart step by step: the ledger's residual, and what each break must leave in it.
@@ -83,7 +77,7 @@ void snap_back(StudyBench& bench) {
     n.push_back(static_cast<double>(run.facts.steps) / run.last("time"));
     worst.push_back(run.ledger());
     peaks.push_back(*std::max_element(stress.begin(), stress.end()));
-    firsts.push_back(at_time(run.column("time"), stress, run.reader.events().front().time));
+    firsts.push_back(value_at(run.column("time"), stress, run.reader.events().front().time));
     std::set<std::int32_t> once;
     for (const Event& e : run.reader.events()) once.insert(e.link);
     report.holds(fmt::format("step_fraction {:g}: every link breaks once", fraction),

@@ -9,6 +9,7 @@
 #include "postproc/output_file.h"
 #include "postproc/quantities/cell_energy.h"
 #include "postproc/quantities/cell_stress.h"
+#include "postproc/quantities/material_constants.h"
 
 namespace lamella {
 namespace {
@@ -319,14 +320,6 @@ PatchBreak solve_patch(const Sample& sample, const Stage& stage) {
   return out;
 }
 
-/// Value of a column at a time, linear between rows.
-double at_time(const StudyRun& run, const std::string& name, double time) {
-  const auto t = run.column("time"), y = run.column(name);
-  for (std::size_t k = 1; k < t.size(); ++k)
-    if (time <= t[k]) return y[k - 1] + (y[k] - y[k - 1]) * (time - t[k - 1]) / (t[k] - t[k - 1]);
-  return y.back();
-}
-
 /// Strain and stress of a run at its first break; the stress in proportion to the last row before it.
 PatchBreak first_break_of(const StudyRun& run) {
   if (run.reader.events().empty()) return {};
@@ -335,7 +328,7 @@ PatchBreak first_break_of(const StudyRun& run) {
   std::size_t k = 0;
   while (k + 1 < time.size() && time[k + 1] < broke) ++k;
   PatchBreak found;
-  found.strain = at_time(run, "strain", broke);
+  found.strain = value_at(time, strain, broke);
   found.stress = stress[k] * found.strain / strain[k];
   return found;
 }
@@ -382,7 +375,7 @@ void tear(StudyBench& bench) {
       "tear",
       fmt::format("`tear.toml` near its largest stress (strain {:.2f} %) and when it is in two ({:.2f} %). Cells by "
                   "elastic energy, broken links in red.",
-                  100 * at_time(run, "strain", frames[0].time), 100 * strain.back()),
+                  100 * value_at(run.column("time"), run.column("strain"), frames[0].time), 100 * strain.back()),
       {620, 330}, [&](Canvas& canvas) {
         const Box world = drawn_extent({&views[0], &views[1]}, setup);
         for (int k : {0, 1}) {
