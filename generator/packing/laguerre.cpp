@@ -93,7 +93,7 @@ class BoxClipper {
       else
         chain.push_back({cut->end, cut->begin, edge.a});
     }
-    Tile tile{.site = site, .vertex = {}, .neighbour = {}};
+    Tile tile{.site = site, .vertex = {}, .neighbour = {}, .image = {}, .across = {}};
     if (chain.empty()) {
       if (owns(site, (box_.lo + box_.hi) / 2) && nothing_cuts_the_box()) add_boundary(tile, 0, 4);
       return tile;

@@ -18,10 +18,14 @@ struct Tile {
   Index site = 0;                // index of its disk
   std::vector<Index> vertex;     // ids into Tessellation::vertices, counter-clockwise
   std::vector<Index> neighbour;  // across the edge vertex[k] -> vertex[k + 1]: a site, or a BoxSide (negative)
+  std::vector<Image>
+      image;  // per vertex, periodic only: the corner lies at vertices[vertex[k]] + displacement(image[k])
+  std::vector<Image> across;  // per edge, periodic only: the neighbour's tile borders as displaced by this
 };
 
 struct Tessellation {
   Box box;
+  Periodic periodic{false, false};
   std::vector<Vec2> vertices;  // [m]
   std::vector<Tile> tiles;     // in the order of their sites; one per disk that is not in `hidden`
   std::vector<Index>
@@ -39,6 +43,9 @@ struct LaguerreOptions {
 /// Tessellates the box. Centres lie inside or on it. A periodic packing is tessellated as the disks it lists, without images.
 /// Throws SceneError naming the disks: outside the box, not finite, duplicates, hidden.
 Tessellation tessellate(const std::vector<Disk>& disks, const Box& box, const LaguerreOptions& options = {});
+
+/// Where the k-th corner of a tile is [m].
+Vec2 corner(const Tessellation& tessellation, const Tile& tile, std::size_t k);
 
 /// Area of a tile [m2], summed about its first vertex so that small tiles far from the origin keep their digits.
 double tile_area(const Tessellation& tessellation, const Tile& tile);

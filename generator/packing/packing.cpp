@@ -22,6 +22,11 @@ constexpr double kClearance = 1e-4;
 // Random packings of disks jam below this whatever their sizes: measured 0.892 for lognormal radii of CV 1.
 constexpr double kLargestFraction = 0.92;
 
+Periodic periodic_of(const PackingScene& scene) {
+  const bool both = scene.boundary == "periodic";
+  return {both || scene.boundary == "periodic_x", both || scene.boundary == "periodic_y"};
+}
+
 double disk_area(const std::vector<double>& radii) {
   return std::accumulate(radii.begin(), radii.end(), 0.0,
                          [](double sum, double r) { return sum + std::numbers::pi * r * r; });
@@ -32,9 +37,11 @@ void refuse_bad_request(const PackingScene& packing, const std::vector<double>& 
   if (radii.empty()) faults.push_back("sample.packing.count = 0: must be at least 1");
   if (!std::all_of(radii.begin(), radii.end(), [](double r) { return r > 0 && std::isfinite(r); }))
     faults.push_back("sample.sizes: all radii must be positive and finite");
-  if (packing.boundary != "walls" && packing.boundary != "periodic")
-    faults.push_back(
-        fmt::format("sample.packing.boundary = \"{}\": must be \"walls\" or \"periodic\"", packing.boundary));
+  if (packing.boundary != "walls" && packing.boundary != "periodic" && packing.boundary != "periodic_x" &&
+      packing.boundary != "periodic_y")
+    faults.push_back(fmt::format(
+        "sample.packing.boundary = \"{}\": must be \"walls\", \"periodic\", \"periodic_x\" or \"periodic_y\"",
+        packing.boundary));
   if (!packing.jammed && !(packing.fraction > 0 && packing.fraction <= kLargestFraction))
     faults.push_back(
         fmt::format("sample.packing.fraction = {}: must be positive, and random packings of disks jam before {}; "
@@ -47,8 +54,8 @@ void refuse_bad_request(const PackingScene& packing, const std::vector<double>& 
 }
 
 /// Disks at random in a box of the asked shape that they fill to `fraction`.
-SoftDisks random_start(const std::vector<double>& radii, double fraction, double width, double height, bool periodic,
-                       Random& random) {
+SoftDisks random_start(const std::vector<double>& radii, double fraction, double width, double height,
+                       Periodic periodic, Random& random) {
   SoftDisks disks{.size = {width, height}, .periodic = periodic, .x = {}, .radius = radii};
   const double area = disk_area(radii) / fraction;
   if (width > 0 && height > 0) {
@@ -68,7 +75,7 @@ SoftDisks random_start(const std::vector<double>& radii, double fraction, double
                     "ask for more disks, a lower fraction or a wider box",
                     2 * largest, disks.size.x(), disks.size.y()));
   for (const double radius : disks.radius) {
-    const Vec2 margin = Vec2::Constant(periodic ? 0 : radius);
+    const Vec2 margin(periodic[0] ? 0 : radius, periodic[1] ? 0 : radius);
     const Vec2 at(random.unit(), random.unit());
     disks.x.push_back(margin + at.cwiseProduct(disks.size - 2 * margin));
   }
@@ -145,10 +152,10 @@ void separate(SoftDisks& disks, Random& random, const PackingProgress& progress)
     }
     shake(disks, trial % 2 == 0 ? 0.2 : 0.5, random);
   }
-  throw SceneError(
-      fmt::format("sample.packing.fraction = {:.4g}: {} disks of these sizes jam at about {:.3f} in this box; ask for "
-                  "less{}, or for more disks",
-                  fraction, disks.x.size(), densest, disks.periodic ? "" : ", for periodic boundaries"));
+  throw SceneError(fmt::format(
+      "sample.packing.fraction = {:.4g}: {} disks of these sizes jam at about {:.3f} in this box; ask for "
+      "less{}, or for more disks",
+      fraction, disks.x.size(), densest, disks.periodic[0] && disks.periodic[1] ? "" : ", for periodic boundaries"));
 }
 
 Packing as_packing(const SoftDisks& soft, double scale) {
@@ -158,7 +165,8 @@ Packing as_packing(const SoftDisks& soft, double scale) {
   for (std::size_t i = 0; i < soft.x.size(); ++i) {
     Vec2 x = soft.x[i] * scale;
     // Scaling can round a centre across the side that it lies on.
-    if (soft.periodic) x = x.cwiseMax(packing.box.lo).cwiseMin(packing.box.hi);
+    for (const int axis : {0, 1})
+      if (soft.periodic[axis]) x[axis] = std::clamp(x[axis], packing.box.lo[axis], packing.box.hi[axis]);
     packing.disks.push_back({x, soft.radius[i] * scale});
   }
   packing.fraction = area_fraction(packing.disks, packing.box);
@@ -178,24 +186,24 @@ double largest_overlap(const Packing& packing) {
   std::vector<Disk> disks = packing.disks;
   double largest = -std::numeric_limits<double>::infinity(), reach = 0;
   for (const Disk& disk : disks) reach = std::max(reach, disk.radius);
-  if (packing.periodic) {
-    // Images within reach of a side, so that what follows need not know of them.
-    for (const int axis : {0, 1}) {
-      const std::size_t count = disks.size();
-      for (std::size_t i = 0; i < count; ++i) {
-        for (const int image : {-1, 1}) {
-          Disk ghost = disks[i];
-          ghost.centre[axis] += image * size[axis];
-          if (ghost.centre[axis] > packing.box.lo[axis] - 4 * reach &&
-              ghost.centre[axis] < packing.box.hi[axis] + 4 * reach)
-            disks.push_back(ghost);
-        }
+  for (const int axis : {0, 1}) {
+    if (packing.periodic[axis]) continue;
+    for (const Disk& disk : disks)
+      largest = std::max({largest, packing.box.lo[axis] - disk.centre[axis] + disk.radius,
+                          disk.centre[axis] - packing.box.hi[axis] + disk.radius});
+  }
+  // Images within reach of a side, so that what follows need not know of them.
+  for (const int axis : {0, 1}) {
+    if (!packing.periodic[axis]) continue;
+    const std::size_t count = disks.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      for (const int image : {-1, 1}) {
+        Disk ghost = disks[i];
+        ghost.centre[axis] += image * size[axis];
+        if (ghost.centre[axis] > packing.box.lo[axis] - 4 * reach &&
+            ghost.centre[axis] < packing.box.hi[axis] + 4 * reach)
+          disks.push_back(ghost);
       }
-    }
-  } else {
-    for (const Disk& disk : disks) {
-      const Vec2 low = packing.box.lo - disk.centre, high = disk.centre - packing.box.hi;
-      largest = std::max({largest, low.maxCoeff() + disk.radius, high.maxCoeff() + disk.radius});
     }
   }
   // Swept along x; of two disks the one further left looks to the right until no disk can reach it.
@@ -214,7 +222,7 @@ Packing pack(const PackingScene& scene, const std::vector<double>& radii, double
              std::uint64_t seed, const PackingProgress& progress) {
   refuse_bad_request(scene, radii, width, height);
   Random random(seed);
-  const bool periodic = scene.boundary == "periodic";
+  const Periodic periodic = periodic_of(scene);
   double scale = 1;
   SoftDisks disks = random_start(radii, scene.jammed ? 0.8 : scene.fraction, width, height, periodic, random);
   if (scene.jammed) {
@@ -241,7 +249,7 @@ Packing make_packing(const Scene& scene, const PackingProgress& progress) {
     const bool box_given = sample.width > 0 && sample.height > 0;
     Packing packing =
         read_packing(scene.resolve(sample.packing.file), box_given ? &box : nullptr, sample.packing.duplicates);
-    packing.periodic = sample.packing.boundary == "periodic";
+    packing.periodic = periodic_of(sample.packing);
     // Allowed, as tiles only need powers; but somebody who believes to have a packing should know.
     if (const double overlap = largest_overlap(packing); overlap > 0)
       packing.notes.push_back(

@@ -15,12 +15,15 @@ struct Disk {
   double radius = 0;           // [m]
 };
 
-/// Disks in a box. Between walls every disk lies inside the box; in a periodic box disks may cross its sides, and the images
-/// at whole box lengths belong to the packing.
+/// Disks in a box. Between walls every disk lies inside the box; across a periodic pair of sides disks may reach, and
+/// the images at whole box lengths belong to the packing.
 struct Packing {
   Box box;
-  bool periodic = false;
+  Periodic periodic{false, false};
   std::vector<Disk> disks;
+  std::vector<double>
+      target_area;  // of each disk's cell, where a file states it [m2]; empty: in proportion to the disks
+  std::vector<std::string> group;  // of each disk's cell; empty: "cells"
   double fraction = 0;             // area of the disks over area of the box [1]
   std::vector<std::string> notes;  // what the user should see
 };

@@ -135,9 +135,9 @@ class Fire {
       }
       f_[i] += fi;
     }
-    if (!disks_.periodic) {
-      for (std::size_t i = 0; i < n_; ++i) {
-        for (int axis = 0; axis < 2; ++axis) {
+    for (int axis = 0; axis < 2; ++axis) {
+      if (!disks_.periodic[axis]) {
+        for (std::size_t i = 0; i < n_; ++i) {
           const double low = radius_[i] - x_[i][axis], high = x_[i][axis] + radius_[i] - disks_.size[axis];
           for (const auto& [overlap, direction] : {std::pair{low, 1.0}, std::pair{high, -1.0}}) {
             if (overlap <= 0) continue;
@@ -162,8 +162,9 @@ class Fire {
   }
 
   void wrap_into_box() {
-    if (!disks_.periodic) return;
-    for (Vec2& x : x_) x -= (x.array() / disks_.size.array()).floor().matrix().cwiseProduct(disks_.size);
+    for (const int axis : {0, 1})
+      if (disks_.periodic[axis])
+        for (Vec2& x : x_) x[axis] -= std::floor(x[axis] / disks_.size[axis]) * disks_.size[axis];
   }
 
   /// Pairs that can touch before one of them has moved by half the skin. Disks are put in the order of the grid's cells on
@@ -189,7 +190,7 @@ class Fire {
   void add_neighbours(const Grid& grid, std::size_t i, int column, int row) {
     const auto wrap = [](int at, int count) { return at >= 0 ? at / count : -((count - 1 - at) / count); };
     const int image_x = wrap(column, grid.columns), image_y = wrap(row, grid.rows);
-    if (!disks_.periodic && (image_x != 0 || image_y != 0)) return;
+    if ((image_x != 0 && !disks_.periodic[0]) || (image_y != 0 && !disks_.periodic[1])) return;
     const std::size_t cell =
         static_cast<std::size_t>(row - image_y * grid.rows) * grid.columns + (column - image_x * grid.columns);
     const Vec2 from = x_[i] - Vec2(image_x * disks_.size.x(), image_y * disks_.size.y());

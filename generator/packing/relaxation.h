@@ -8,10 +8,10 @@
 
 namespace lamella {
 
-/// Disks in the box [0, size], which has walls or is periodic.
+/// Disks in the box [0, size], between walls or, in some directions, periodic.
 struct SoftDisks {
   Vec2 size = Vec2::Zero();
-  bool periodic = false;
+  Periodic periodic{false, false};
   std::vector<Vec2> x;
   std::vector<double> radius;
 };

@@ -26,21 +26,25 @@ bool on_side(const Box& box, const Vec2& p, Index side) {
 
 }  // namespace
 
+Vec2 corner(const Tessellation& tessellation, const Tile& tile, std::size_t k) {
+  const Vec2& x = tessellation.vertices[tile.vertex[k]];
+  return tile.image.empty() ? x : x + displacement(tile.image[k], tessellation.box);
+}
+
 double tile_area(const Tessellation& tessellation, const Tile& tile) {
-  const Vec2& origin = tessellation.vertices[tile.vertex.front()];
+  const Vec2 origin = corner(tessellation, tile, 0);
   double twice = 0;
   for (std::size_t k = 1; k + 1 < tile.vertex.size(); ++k)
-    twice += cross(tessellation.vertices[tile.vertex[k]] - origin, tessellation.vertices[tile.vertex[k + 1]] - origin);
+    twice += cross(corner(tessellation, tile, k) - origin, corner(tessellation, tile, k + 1) - origin);
   return twice / 2;
 }
 
 Vec2 tile_centroid(const Tessellation& tessellation, const Tile& tile) {
-  const Vec2& origin = tessellation.vertices[tile.vertex.front()];
+  const Vec2 origin = corner(tessellation, tile, 0);
   double twice = 0;
   Vec2 moment = Vec2::Zero();
   for (std::size_t k = 1; k + 1 < tile.vertex.size(); ++k) {
-    const Vec2 a = tessellation.vertices[tile.vertex[k]] - origin,
-               b = tessellation.vertices[tile.vertex[k + 1]] - origin;
+    const Vec2 a = corner(tessellation, tile, k) - origin, b = corner(tessellation, tile, k + 1) - origin;
     twice += cross(a, b);
     moment += cross(a, b) * (a + b) / 3;
   }
@@ -48,8 +52,7 @@ Vec2 tile_centroid(const Tessellation& tessellation, const Tile& tile) {
 }
 
 double edge_length(const Tessellation& tessellation, const Tile& tile, std::size_t k) {
-  const Index a = tile.vertex[k], b = tile.vertex[(k + 1) % tile.vertex.size()];
-  return (tessellation.vertices[b] - tessellation.vertices[a]).norm();
+  return (corner(tessellation, tile, (k + 1) % tile.vertex.size()) - corner(tessellation, tile, k)).norm();
 }
 
 double mean_edge_length(const Tessellation& tessellation) {

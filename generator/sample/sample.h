@@ -59,6 +59,12 @@ struct Sample {
   std::vector<double> tile_area;         // area of the tessellation's tile, gaps shared out [m2]; 0 for a chain
   std::vector<std::string> group_names;  // "cells" unless the scene names groups
 
+  // What a sample may have beside; empty where it has not.
+  Periodic periodic{false, false};    // the box repeats; cells that cross its sides are whole, and lie where they begin
+  std::vector<Image> link_image;      // per link: b is at x[b] + displacement(image, box)
+  std::vector<double> link_strength;  // per link: factor on its strengths [1]
+  std::vector<double> cell_thickness;  // per cell: factor on its wall's thickness [1]
+
   std::vector<Wall> walls;
   std::vector<Link> links;  // sorted by wall, and along it in the order of a's cell
 

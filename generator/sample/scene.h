@@ -15,14 +15,27 @@ namespace lamella {
 
 // ---- [sample]: geometry -------------------------------------------------------------------------------------------
 
+/// [[sample.sizes.mixture]]: one kind of disk among several.
+struct MixtureScene {
+  std::string distribution = "lognormal";  // uniform | normal | lognormal | gamma | weibull
+  double mean = 1;                         // mean radius [m]
+  double cv = 0.1;                         // standard deviation over mean [1]
+  std::optional<double> share;             // of the disks, by number [1]
+  std::optional<double> area_share;        // of the area of all disks, instead [1]
+  std::string group = "cells";             // of its cells
+};
+
 /// [sample.sizes]: radii of the disks.
 struct SizesScene {
-  std::string distribution = "lognormal";  // uniform | normal | lognormal | gamma | bidisperse | file
-  double mean = 1;                         // mean radius; only ratios matter when the box is given [m]
-  double cv = 0.1;                         // standard deviation over mean [1]
-  double ratio = 1.4;                      // bidisperse: large over small [1]
-  double share = 0.5;                      // bidisperse: share of large disks by number [1]
-  std::string file;                        // one radius a line
+  std::string distribution =
+      "lognormal";          // uniform | normal | lognormal | gamma | weibull | bidisperse | table | mixture | file
+  double mean = 1;          // mean radius; only ratios matter when the box is given [m]
+  double cv = 0.1;          // standard deviation over mean [1]
+  double ratio = 1.4;       // bidisperse: large over small [1]
+  double share = 0.5;       // bidisperse: share of large disks by number [1]
+  std::vector<Vec2> table;  // table: (radius [m], density of probability), linear between
+  std::string file;         // one radius a line
+  std::vector<MixtureScene> mixture;
 };
 
 /// [sample.packing]
@@ -33,6 +46,68 @@ struct PackingScene {
   bool jammed = false;               // compress until jammed, whatever the fraction
   std::string file;                  // CSV x,y,r instead of a packing of our own
   std::string duplicates = "error";  // error | keep_first
+};
+
+/// [[sample.domain.holes]]: a polygon, or a circle.
+struct HoleScene {
+  std::vector<Vec2> points;      // [m]
+  Vec2 centre = Vec2::Zero();    // [m]
+  std::optional<double> radius;  // [m]
+};
+
+/// [sample.domain]: what the tissue fills, where that is not the box.
+struct DomainScene {
+  std::string kind = "disk";  // disk | ring | polygon
+  double radius = 0;          // disk, ring: outer [m]
+  double inner_radius = 0;    // ring [m]
+  std::vector<Vec2> points;   // polygon [m]
+  int sides = 96;             // of the polygon that stands for a circle
+  std::vector<HoleScene> holes;
+};
+
+/// [sample.areas]: the area of every cell as the sizes prescribe it.
+struct AreasScene {
+  std::string of = "tile";        // tile | inset: what has the area: the tile, or what the cell's outline leaves of it
+  std::string sites = "packing";  // packing | random: where the search starts
+  int sweeps = 0;                 // of Lloyd's: sites to the centres of their tiles, areas kept
+  double tolerance = 1e-9;        // largest relative error of an area [1]
+};
+
+/// [[sample.layers]]: a part of the sample with a size or a group of its own.
+struct LayerScene {
+  std::string along = "y";    // x | y | radius: distance from the middle of the box
+  double from = 0, to = 0;    // [m]
+  std::vector<Vec2> polygon;  // instead [m]
+  double size = 1;            // factor on the radii [1]
+  std::string group = "cells";
+};
+
+/// [sample.gradient]: factors that depend on the place, as (position [m], factor) pairs, linear between.
+struct GradientScene {
+  std::string along = "y";      // x | y | radius
+  std::vector<Vec2> size;       // on radii
+  std::vector<Vec2> thickness;  // on the walls' thickness
+  std::vector<Vec2> strength;   // on the links' strengths
+};
+
+/// [sample.stretch]: cells longer one way than the other, at the same area.
+struct StretchScene {
+  double ratio = 1;  // length over width of what would be round [1]
+  double angle = 0;  // of the long way, from the x axis [rad]
+};
+
+/// [sample.image]: a picture of a real tissue.
+struct ImageScene {
+  std::string file;                 // PGM, PNG, TIFF
+  std::string kind = "labels";      // labels: each pixel holds the number of its cell | grey: a micrograph
+  double pixel = 1;                 // [m]
+  std::string cells = "outlines";   // outlines: as they are | laguerre: the closest Laguerre tessellation
+  int background = 0;               // labels: of what is no cell
+  std::string walls = "dark";       // grey: dark | bright
+  std::optional<double> threshold;  // grey: between wall and cell, 0 to 1; absent: Otsu's
+  double smoothing = 1;             // grey: standard deviation of the blur [pixels]
+  int least_area = 20;              // smaller cells are joined to the neighbour with the longest common wall [pixels]
+  double simplify = 1;              // largest distance of a simplified wall from the pixels' boundary [pixels]
 };
 
 /// [sample.walls]: from tiles to shells of mass points.
@@ -68,18 +143,28 @@ struct ShapeScene {
 
 /// [sample]
 struct SampleScene {
-  std::string kind = "tissue";   // tissue | rings | honeycomb | polygons | shapes
+  std::string kind = "tissue";   // tissue | rings | honeycomb | bricks | polygons | image | shapes
   double width = 0, height = 0;  // of the box [m]; 0: from the disks' sizes, or from the polygons
   SizesScene sizes;
   PackingScene packing;
   WallsScene walls;
   std::optional<NotchScene> notch;
+  std::optional<DomainScene> domain;
+  std::optional<AreasScene> areas;
+  std::vector<LayerScene> layers;
+  std::optional<GradientScene> gradient;
+  std::optional<StretchScene> stretch;
+  std::optional<ImageScene> image;
+  std::string periodic = "none";  // none | x | y | xy: tissue, honeycomb, bricks go on beyond these sides
   // rings: on the disks of the packing
   int ring_nodes = 40;
   // honeycomb: regular hexagons of side `side`, `columns` x `rows`; orientation: which walls lie along x
   int columns = 0, rows = 0;
   double side = 0;                     // [m]
   std::string orientation = "pointy";  // pointy: two walls along y; flat: two walls along x
+  // bricks: `columns` x `rows` rectangles, every second row shifted by `shift` of a brick
+  Vec2 brick = Vec2::Zero();  // [m]
+  double shift = 0.5;         // [1]
   // polygons: a tissue from elsewhere
   std::string file;                 // text, `x y cell` a line
   std::string outlines = "shared";  // shared | separate

@@ -69,6 +69,34 @@ void check_shape(const Value& table, const std::string& path, const ShapeScene& 
   }
 }
 
+void check_layer(const Value& table, const std::string& path, const LayerScene& layer, Faults& faults) {
+  if (has(table, "polygon")) {
+    for (const char* key : {"along", "from", "to"}) exclude(table, path, "polygon", key, faults);
+    if (layer.polygon.size() < 3)
+      add_at(table, path, "polygon", "has fewer than three points; give three or more", faults);
+  } else {
+    require(table, path, "to", "where the layer ends, or a polygon", faults);
+    if (has(table, "to") && !(layer.to > layer.from))
+      add_at(table, path, "to", "is not beyond from; give a larger one", faults);
+  }
+}
+
+void check_mixture(const Value& table, const std::string& path, const MixtureScene&, Faults& faults) {
+  exclude(table, path, "share", "area_share", faults);
+  if (!has(table, "share") && !has(table, "area_share"))
+    faults.add(table, dotted(path, "share"), "missing; give share (by number) or area_share");
+}
+
+void check_hole(const Value& table, const std::string& path, const HoleScene& hole, Faults& faults) {
+  exclude(table, path, "points", "radius", faults);
+  if (has(table, "points")) {
+    if (hole.points.size() < 3)
+      add_at(table, path, "points", "has fewer than three points; give three or more", faults);
+    return;
+  }
+  for (const char* key : {"centre", "radius"}) require(table, path, key, "a hole is circular, or has points", faults);
+}
+
 void check_sample_section(const Value& table, const SampleScene& sample, Faults& faults) {
   const std::string path = "sample";
   const std::string& kind = sample.kind;
@@ -78,21 +106,28 @@ void check_sample_section(const Value& table, const SampleScene& sample, Faults&
              faults);
   };
   belongs("ring_nodes", {"rings"});
-  for (const char* key : {"columns", "rows", "side", "orientation"}) belongs(key, {"honeycomb"});
+  for (const char* key : {"side", "orientation"}) belongs(key, {"honeycomb"});
+  for (const char* key : {"columns", "rows"}) belongs(key, {"honeycomb", "bricks"});
+  for (const char* key : {"brick", "shift"}) belongs(key, {"bricks"});
+  for (const char* key : {"domain", "areas", "layers", "gradient", "stretch"}) belongs(key, {"tissue"});
+  belongs("periodic", {"tissue", "honeycomb", "bricks"});
+  belongs("image", {"image"});
   for (const char* key : {"file", "outlines", "facing_tolerance", "scale"}) belongs(key, {"polygons"});
   for (const char* key : {"sizes", "packing"}) belongs(key, {"tissue", "rings"});
-  belongs("walls", {"tissue", "honeycomb", "polygons", "rings", "shapes"});
+  belongs("walls", {"tissue", "honeycomb", "bricks", "polygons", "image", "rings", "shapes"});
 
   if (has(table, "width") != has(table, "height"))
     faults.add(table, dotted(path, has(table, "width") ? "height" : "width"), "missing; a box needs both, or neither");
   if (kind == "honeycomb")
     for (const char* key : {"columns", "rows", "side"}) require(table, path, key, "a honeycomb needs it", faults);
+  if (kind == "bricks")
+    for (const char* key : {"columns", "rows", "brick"}) require(table, path, key, "a brick wall needs it", faults);
+  if (kind == "image") require(table, path, "image", "the picture, such as image = { file = \"labels.png\" }", faults);
   if (kind == "polygons") require(table, path, "file", "the text file of the polygons, `x y cell` a line", faults);
   if (kind == "shapes") require(table, path, "shapes", "list at least one [[sample.shapes]]", faults);
 
   const Value& walls = section_or_empty(table, "walls");
-  if ((kind == "tissue" || kind == "honeycomb" || kind == "polygons") && !has(walls, "spacing") &&
-      !has(walls, "segments"))
+  if (kind != "rings" && kind != "shapes" && !has(walls, "spacing") && !has(walls, "segments"))
     faults.add(has(table, "walls") ? walls : table, "sample.walls.spacing",
                "missing; give the distance of mass points, or walls.segments, their number on a wall of mean length");
 
@@ -241,8 +276,12 @@ void check_stage(const Value& at, const std::string& path, const Stage& stage, F
 void check_groups(const Value& at, const Scene& scene, Faults& faults) {
   std::vector<std::string> groups;
   if (scene.sample.kind != "shapes") groups.emplace_back("cells");
-  for (const ShapeScene& shape : scene.sample.shapes)
-    if (std::find(groups.begin(), groups.end(), shape.group) == groups.end()) groups.push_back(shape.group);
+  const auto add = [&](const std::string& group) {
+    if (std::find(groups.begin(), groups.end(), group) == groups.end()) groups.push_back(group);
+  };
+  for (const ShapeScene& shape : scene.sample.shapes) add(shape.group);
+  for (const LayerScene& layer : scene.sample.layers) add(layer.group);
+  for (const MixtureScene& part : scene.sample.sizes.mixture) add(part.group);
   const auto check = [&](const std::string& group, int line, const std::string& path, const std::string& own) {
     if (group == own || std::find(groups.begin(), groups.end(), group) != groups.end()) return;
     std::vector<std::string> known = groups;

@@ -9,6 +9,9 @@ namespace lamella {
 
 void check_alternatives(const Value& table, const std::string& path, Faults& faults);
 void check_sample_section(const Value& table, const SampleScene& sample, Faults& faults);
+void check_layer(const Value& table, const std::string& path, const LayerScene& layer, Faults& faults);
+void check_mixture(const Value& table, const std::string& path, const MixtureScene& part, Faults& faults);
+void check_hole(const Value& table, const std::string& path, const HoleScene& hole, Faults& faults);
 void check_shape(const Value& table, const std::string& path, const ShapeScene& shape, Faults& faults);
 /// What the generator needs; and, where the scene is simulated, stiffness and mass.
 enum class Needs { geometry, mechanics };

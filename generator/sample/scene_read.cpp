@@ -251,33 +251,52 @@ std::vector<Stage> read_stages(const Value& root, Needs needs, Faults& faults) {
   return stages;
 }
 
+/// A list of tables, each checked by `check(table, path, entry, faults)`.
+template <class S, class Check>
+void read_list(const Value& table, const std::string& at, const std::string& key, std::vector<S>& out, Faults& faults,
+               Check check) {
+  const Value* list = table.find(key);
+  if (!list) return;
+  const std::string path = dotted(at, key);
+  if (list->kind != Value::Kind::array)
+    faults.add(*list, path, fmt::format("is {}; {} are a list: [[{}]]", list->kind_name(), key, path));
+  for (std::size_t k = 0; k < list->items.size(); ++k) {
+    const std::string place = fmt::format("{}[{}]", path, k);
+    S entry;
+    read_section(list->items[k], place, entry, faults);
+    if (list->items[k].is_table()) check(list->items[k], place, entry, faults);
+    out.push_back(std::move(entry));
+  }
+}
+
 SampleScene read_sample_section(const Value& table, Faults& faults) {
   SampleScene sample;
-  read_section(table, "sample", sample, faults, {"sizes", "packing", "walls", "notch", "shapes"});
+  read_section(
+      table, "sample", sample, faults,
+      {"sizes", "packing", "walls", "notch", "shapes", "domain", "areas", "layers", "gradient", "stretch", "image"});
   if (!table.is_table()) return sample;
-  const auto part = [&](const char* key, auto& out) {
+  const auto part = [&](const char* key, auto& out, const char* inner = nullptr) {
     const Value* section = table.find(key);
     const std::string path = dotted("sample", key);
     if (!section) return;
-    read_section(*section, path, out, faults);
+    read_section(*section, path, out, faults, inner ? std::vector<std::string>{inner} : std::vector<std::string>{});
     if (section->is_table()) check_alternatives(*section, path, faults);
   };
-  part("sizes", sample.sizes);
+  part("sizes", sample.sizes, "mixture");
   part("packing", sample.packing);
   part("walls", sample.walls);
   if (table.find("notch")) part("notch", sample.notch.emplace());
-  if (const Value* shapes = table.find("shapes")) {
-    if (shapes->kind != Value::Kind::array)
-      faults.add(*shapes, "sample.shapes",
-                 fmt::format("is {}; shapes are a list: [[sample.shapes]]", shapes->kind_name()));
-    for (std::size_t k = 0; k < shapes->items.size(); ++k) {
-      const std::string path = fmt::format("sample.shapes[{}]", k);
-      ShapeScene shape;
-      read_section(shapes->items[k], path, shape, faults);
-      if (shapes->items[k].is_table()) check_shape(shapes->items[k], path, shape, faults);
-      sample.shapes.push_back(std::move(shape));
-    }
-  }
+  if (table.find("domain")) part("domain", sample.domain.emplace(), "holes");
+  if (table.find("areas")) part("areas", sample.areas.emplace());
+  if (table.find("gradient")) part("gradient", sample.gradient.emplace());
+  if (table.find("stretch")) part("stretch", sample.stretch.emplace());
+  if (table.find("image")) part("image", sample.image.emplace());
+  read_list(table, "sample", "shapes", sample.shapes, faults, check_shape);
+  read_list(table, "sample", "layers", sample.layers, faults, check_layer);
+  if (const Value* sizes = table.find("sizes"); sizes && sizes->is_table())
+    read_list(*sizes, "sample.sizes", "mixture", sample.sizes.mixture, faults, check_mixture);
+  if (const Value* domain = table.find("domain"); domain && domain->is_table())
+    read_list(*domain, "sample.domain", "holes", sample.domain->holes, faults, check_hole);
   check_sample_section(table, sample, faults);
   return sample;
 }

@@ -57,6 +57,22 @@ const std::vector<Row<NotchScene>>& rows();
 template <>
 const std::vector<Row<ShapeScene>>& rows();
 template <>
+const std::vector<Row<MixtureScene>>& rows();
+template <>
+const std::vector<Row<DomainScene>>& rows();
+template <>
+const std::vector<Row<HoleScene>>& rows();
+template <>
+const std::vector<Row<AreasScene>>& rows();
+template <>
+const std::vector<Row<LayerScene>>& rows();
+template <>
+const std::vector<Row<GradientScene>>& rows();
+template <>
+const std::vector<Row<StretchScene>>& rows();
+template <>
+const std::vector<Row<ImageScene>>& rows();
+template <>
 const std::vector<Row<CellScene>>& rows();
 template <>
 const std::vector<Row<CoreScene>>& rows();

@@ -1,6 +1,8 @@
 // The plane: points, vectors and boxes. Everything that is small and dense is Eigen's.
 #pragma once
 #include <Eigen/Core>
+#include <array>
+#include <cstdint>
 
 namespace lamella {
 
@@ -15,6 +17,16 @@ struct Box {
   double area() const { return (hi.x() - lo.x()) * (hi.y() - lo.y()); }
   bool contains(const Vec2& p) const { return (p.array() >= lo.array()).all() && (p.array() <= hi.array()).all(); }
 };
+
+/// In which directions, x and y, the plane repeats.
+using Periodic = std::array<bool, 2>;
+
+/// By how many lengths of a periodic box something is displaced, along x and y.
+using Image = std::array<std::int8_t, 2>;
+
+inline Vec2 displacement(const Image& image, const Box& box) {
+  return {image[0] * box.size().x(), image[1] * box.size().y()};
+}
 
 /// z component of the cross product; positive when b lies to the left of a.
 inline double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }

@@ -69,7 +69,7 @@ Sample make_packed_rings(const Scene& scene, Notes& notes, const Progress& progr
   const Packing packing = make_packing(scene, progress);
   notes.insert(notes.end(), packing.notes.begin(), packing.notes.end());
   std::vector<double> areas(packing.disks.size(), 0);
-  if (packing.periodic) {
+  if (packing.periodic[0] || packing.periodic[1]) {
     notes.push_back("the packing is periodic, the sample is not: rings cross the sides of the box");
     // A disk across a side has no whole tile in the box: gaps are shared out in proportion.
     for (std::size_t i = 0; i < areas.size(); ++i)

@@ -13,12 +13,17 @@ struct MosaicCell {
   std::vector<Index> vertex;       // counter-clockwise, into Mosaic::vertices
   std::vector<std::uint8_t> side;  // Side bits of the edge that starts at the vertex of the same place
   std::string name;                // what the user calls it: "site 12"
+  std::vector<Image>
+      image;  // per vertex, periodic mosaics only: the corner lies at its vertex + displacement(image[k])
+  std::string group = "cells";
+  double thickness = 1;  // factor on the wall's thickness, and on its radius [1]
 };
 
 /// Two cells share the edge (u, v) when one has it from u to v and the other from v to u: shared walls are known by
 /// their vertices' ids and never by comparing coordinates. An edge that nobody shares is free.
 struct Mosaic {
   Box box;
+  Periodic periodic{false, false};
   std::vector<Vec2> vertices;
   std::vector<MosaicCell> cells;
 };

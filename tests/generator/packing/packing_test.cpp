@@ -47,13 +47,15 @@ double brute_force_overlap(const Packing& packing) {
   const Vec2 size = packing.box.size();
   for (std::size_t i = 0; i < packing.disks.size(); ++i) {
     const Disk& a = packing.disks[i];
-    if (!packing.periodic)
-      largest = std::max({largest, a.radius - (a.centre - packing.box.lo).minCoeff(),
-                          a.radius - (packing.box.hi - a.centre).minCoeff()});
+    for (const int axis : {0, 1})
+      if (!packing.periodic[axis])
+        largest = std::max(
+            {largest, a.radius - (a.centre - packing.box.lo)[axis], a.radius - (packing.box.hi - a.centre)[axis]});
     for (std::size_t j = 0; j < packing.disks.size(); ++j) {
       for (int ix = -1; ix <= 1; ++ix) {
         for (int iy = -1; iy <= 1; ++iy) {
-          if ((i == j && ix == 0 && iy == 0) || (!packing.periodic && (ix != 0 || iy != 0))) continue;
+          if (i == j && ix == 0 && iy == 0) continue;
+          if ((ix != 0 && !packing.periodic[0]) || (iy != 0 && !packing.periodic[1])) continue;
           const Vec2 d = packing.disks[j].centre + size.cwiseProduct(Vec2(ix, iy)) - a.centre;
           largest = std::max(largest, a.radius + packing.disks[j].radius - d.norm());
         }
@@ -65,7 +67,8 @@ double brute_force_overlap(const Packing& packing) {
 
 TEST(packing, disks_fill_the_fraction_asked_for_and_do_not_overlap) {
   for (const double cv : {0.0, 0.1, 0.3, 0.6}) {
-    for (const auto& [boundary, fraction] : {std::pair{"walls", 0.81}, std::pair{"periodic", 0.83}}) {
+    for (const auto& [boundary, fraction] :
+         {std::pair{"walls", 0.81}, {"periodic", 0.83}, {"periodic_x", 0.82}, {"periodic_y", 0.82}}) {
       const auto radii = lognormal_radii(400, cv, 2);
       const Packing packing = pack(asked(boundary, fraction), radii, 0, 0, 2);
       EXPECT_NEAR(packing.fraction, fraction, 1e-12) << boundary << " CV " << cv;
@@ -80,7 +83,7 @@ TEST(packing, the_search_for_overlaps_agrees_with_trying_all_pairs) {
     Packing packing;
     packing.box = {{0, 0}, {1, 0.7}};
     packing.disks = random_disks(60, 0.05, seed, 1, 0.7);
-    for (const bool periodic : {false, true}) {
+    for (const Periodic periodic : {Periodic{false, false}, {true, false}, {false, true}, {true, true}}) {
       packing.periodic = periodic;
       EXPECT_NEAR(largest_overlap(packing), brute_force_overlap(packing), 1e-15);
     }
@@ -221,7 +224,7 @@ TEST(packing, what_cannot_be_packed_is_refused_with_what_can) {
   EXPECT_THAT(message_of(asked("walls", -0.5), radii, 0, 0), HasSubstr("must be positive"));
   EXPECT_THAT(message_of(asked("walls", NAN), radii, 0, 0), HasSubstr("fraction = nan"));
   EXPECT_THAT(message_of(asked("walls", 0.88), radii, 0, 0), HasSubstr("100 disks of these sizes jam at about 0.8"));
-  EXPECT_THAT(message_of(asked("torus", 0.8), radii, 0, 0), HasSubstr("\"walls\" or \"periodic\""));
+  EXPECT_THAT(message_of(asked("torus", 0.8), radii, 0, 0), HasSubstr("\"walls\", \"periodic\""));
   EXPECT_THAT(message_of(asked("walls", 0.8), radii, -1, 0), HasSubstr("sample.width = -1"));
   EXPECT_THAT(message_of(asked("walls", 0.8), radii, 1000, 0.1), HasSubstr("does not fit the box"));
   EXPECT_THAT(message_of(asked("walls", 0.8), {1, -1}, 0, 0), HasSubstr("positive and finite"));
