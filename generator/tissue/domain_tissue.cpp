@@ -168,6 +168,7 @@ DomainTissue tissue_of(const Overlay& o, const Tessellation& t, const Sharing& s
     cell.name = fmt::format("site {}", t.tiles[k].site);
     tissue.mosaic.cells.push_back(std::move(cell));
     tissue.boundary.push_back(std::move(boundary));
+    tissue.site.push_back(t.tiles[k].site);
   }
   return tissue;
 }

@@ -20,7 +20,7 @@ namespace {
 struct Coincidence {};
 
 /// One edge of the tessellation, from the lower vertex to the higher.
-struct TileWall {
+struct CutWall {
   Index low = 0, high = 0;
   Index left = -1, left_edge = 0;    // tile that has it from low to high, and which of its edges it is
   Index right = -1, right_edge = 0;  // tile that has it from high to low; -1: outside the box
@@ -45,7 +45,7 @@ struct BoundaryPiece {
   Index before = -1, after = -1;  // pieces of the same loop
 };
 
-std::vector<TileWall> walls_of(const Tessellation& tessellation) {
+std::vector<CutWall> walls_of(const Tessellation& tessellation) {
   struct Directed {
     Index low, high, tile, edge;
     bool rising;
@@ -61,11 +61,11 @@ std::vector<TileWall> walls_of(const Tessellation& tessellation) {
   std::sort(all.begin(), all.end(), [](const Directed& a, const Directed& b) {
     return std::tie(a.low, a.high, a.tile, a.edge) < std::tie(b.low, b.high, b.tile, b.edge);
   });
-  std::vector<TileWall> walls;
+  std::vector<CutWall> walls;
   for (const Directed& d : all) {
     if (walls.empty() || walls.back().low != d.low || walls.back().high != d.high)
       walls.push_back({.low = d.low, .high = d.high, .crossings = {}});
-    TileWall& wall = walls.back();
+    CutWall& wall = walls.back();
     (d.rising ? wall.left : wall.right) = d.tile;
     (d.rising ? wall.left_edge : wall.right_edge) = d.edge;
   }
@@ -118,7 +118,7 @@ class Overlayer {
         }
         cross(first_boundary_[l] + static_cast<Index>(e), a, b, near);
       }
-    for (TileWall& wall : walls_) order(wall);
+    for (CutWall& wall : walls_) order(wall);
   }
 
   /// Crossings of one edge of the domain, in its order.
@@ -126,7 +126,7 @@ class Overlayer {
     std::vector<BoundaryCrossing> found;
     std::vector<std::pair<Vec2, Vec2>> segments;
     for (const int w : near) {
-      const TileWall& wall = walls_[w];
+      const CutWall& wall = walls_[w];
       const Vec2 &u = vertex(wall.low), &v = vertex(wall.high);
       const int u_side = orientation(a, b, u), v_side = orientation(a, b, v);
       if (u_side * v_side > 0) continue;
@@ -157,7 +157,7 @@ class Overlayer {
     }
   }
 
-  void order(TileWall& wall) {
+  void order(CutWall& wall) {
     if (wall.crossings.size() > 1) {
       std::vector<std::pair<Vec2, Vec2>> segments;
       for (const Index x : wall.crossings) segments.push_back(ends(boundary_of_[x], moved_));
@@ -254,13 +254,13 @@ class Overlayer {
       crossed_[t].assign(t_.tiles[t].vertex.size(), -1);
     }
     for (std::size_t w = 0; w < walls_.size(); ++w) {
-      const TileWall& wall = walls_[w];
+      const CutWall& wall = walls_[w];
       if (wall.left >= 0) crossed_[wall.left][wall.left_edge] = static_cast<Index>(w);
       if (wall.right >= 0) crossed_[wall.right][wall.right_edge] = static_cast<Index>(w);
     }
     for (std::size_t t = 0; t < t_.tiles.size(); ++t)
       for (std::size_t k = 0; k < start_[t].size(); ++k) {
-        const TileWall& wall = walls_[crossed_[t][k]];
+        const CutWall& wall = walls_[crossed_[t][k]];
         const bool left = is_left(wall, t, k);
         start_[t][k] = static_cast<Index>(edges_.size());
         const auto count = static_cast<Index>(wall.crossings.size());
@@ -272,7 +272,7 @@ class Overlayer {
           edges_.push_back(edge);
         }
       }
-    for (const TileWall& wall : walls_) {
+    for (const CutWall& wall : walls_) {
       if (wall.left < 0 || wall.right < 0) continue;
       const auto count = static_cast<Index>(wall.crossings.size());
       for (Index j = 0; j <= count; ++j) {
@@ -283,13 +283,13 @@ class Overlayer {
     }
   }
 
-  bool is_left(const TileWall& wall, std::size_t tile, std::size_t edge) const {
+  bool is_left(const CutWall& wall, std::size_t tile, std::size_t edge) const {
     return wall.left == static_cast<Index>(tile) && wall.left_edge == static_cast<Index>(edge);
   }
 
   /// The edge of `tile` that starts at crossing x.
   Index tile_edge_from(Index x, Index tile) const {
-    const TileWall& wall = walls_[crossings_[x].wall];
+    const CutWall& wall = walls_[crossings_[x].wall];
     const auto count = static_cast<Index>(wall.crossings.size());
     return wall.left == tile ? start_[tile][wall.left_edge] + crossings_[x].rank + 1
                              : start_[tile][wall.right_edge] + count - crossings_[x].rank;
@@ -314,7 +314,7 @@ class Overlayer {
     }
     for (std::size_t t = 0; t < t_.tiles.size(); ++t)
       for (std::size_t k = 0; k < start_[t].size(); ++k) {
-        const TileWall& wall = walls_[crossed_[t][k]];
+        const CutWall& wall = walls_[crossed_[t][k]];
         const bool left = is_left(wall, t, k);
         const auto count = static_cast<Index>(wall.crossings.size());
         for (Index j = 0; j < count; ++j) {
@@ -394,7 +394,7 @@ class Overlayer {
 
   const Tessellation& t_;
   const Loops &loops_, &moved_;
-  std::vector<TileWall> walls_;
+  std::vector<CutWall> walls_;
   std::vector<Index> first_boundary_;  // per loop
   Index boundaries_ = 0;               // edges of all loops
   std::vector<BoundaryCrossing> crossings_;
