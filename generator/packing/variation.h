@@ -5,12 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "generator/packing/packing.h"
 #include "generator/sample/scene.h"
 #include "generator/sample/vec.h"
 
 namespace lamella {
 
-using PositionFactor = std::function<double(const Vec2&)>;
+using PositionFactor = SizeFactor;
 
 /// Factor on the radii of disks at a place: that of gradient.size times that of the last layer that holds the place. Positions along
 /// "radius" are distances from the middle of `box`. An empty function when nothing varies. Throws SceneError: positions that do not

@@ -9,6 +9,7 @@
 
 #include "generator/packing/laguerre.h"
 #include "generator/packing/packing.h"
+#include "generator/packing/variation.h"
 #include "generator/packing/weld.h"
 #include "generator/sample/errors.h"
 #include "generator/tissue/bricks.h"
@@ -54,9 +55,12 @@ Sample make_tissue(Mosaic& mosaic, const Scene& scene, Notes& notes) {
 
 Mosaic make_packed_mosaic(const Scene& scene, Notes& notes, const Progress& progress) {
   if (scene.sample.domain || scene.sample.stretch) return make_domain_mosaic(scene, notes, progress);
-  const Packing packing = make_packing(scene, [&](double done, const std::string& what) {
-    if (progress) progress(0.7 * done, what);
-  });
+  const Packing packing = make_packing(
+      scene,
+      [&](double done, const std::string& what) {
+        if (progress) progress(0.7 * done, what);
+      },
+      size_factor(scene.sample, {Vec2::Zero(), {scene.sample.width, scene.sample.height}}));
   notes.insert(notes.end(), packing.notes.begin(), packing.notes.end());
   if (progress) progress(0.7, "tessellation");
   Tessellation tessellation = tessellate(packing, scene.sample.packing, notes);

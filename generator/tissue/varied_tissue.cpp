@@ -28,17 +28,6 @@ Domain asked_domain(const SampleScene& sample) {
   return make_domain(as_domain({Vec2::Zero(), {sample.width, sample.height}}));
 }
 
-/// Disks in the domain.
-Packing pack_in_domain(const Scene& scene, const Domain& domain, const PositionFactor&, const TissueProgress& progress) {
-  Scene wider = scene;
-  wider.sample.width = domain.box.size().x(), wider.sample.height = domain.box.size().y();
-  wider.sample.packing.count = static_cast<int>(std::lround(scene.sample.packing.count * domain.box.area() / domain.area));
-  Packing packing = make_packing(wider, progress);
-  for (Disk& disk : packing.disks) disk.centre += domain.box.lo;
-  std::erase_if(packing.disks, [&](const Disk& disk) { return !domain.contains(disk.centre); });
-  return packing;
-}
-
 void report_hidden(const Tessellation& tessellation, Notes& notes) {
   if (tessellation.hidden.empty()) return;
   std::vector<std::string> names;
@@ -59,14 +48,17 @@ Mosaic make_domain_mosaic(const Scene& scene, Notes& notes, const TissueProgress
   const Eigen::Matrix2d map = asked.stretch ? stretch_map(*asked.stretch) : Eigen::Matrix2d::Identity();
   Scene filled = scene;
   if (asked.stretch) filled.sample.domain = squeezed(domain, map);
+  filled.sample.width = filled.sample.height = 0;
   const Domain squeezed_domain = asked.stretch ? make_domain(*filled.sample.domain) : domain;
   const PositionFactor factor = size_factor(asked, domain.box);
   PositionFactor squeezed_factor;
   if (factor) squeezed_factor = [&](const Vec2& p) { return factor(map * p); };
-  const Packing packing =
-      pack_in_domain(filled, squeezed_domain, squeezed_factor, [&](double done, const std::string& what) {
+  const Packing packing = make_packing(
+      filled,
+      [&](double done, const std::string& what) {
         if (progress) progress(0.7 * done, what);
-      });
+      },
+      squeezed_factor);
   notes.insert(notes.end(), packing.notes.begin(), packing.notes.end());
   if (progress) progress(0.7, "tessellation");
   LaguerreOptions options;
