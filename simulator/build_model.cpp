@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 
 #include "generator/sample/errors.h"
@@ -16,6 +17,29 @@ std::vector<const CellScene*> cell_sections(const Sample& sample, const Stage& s
   std::vector<const CellScene*> section(sample.cells());
   for (Index c = 0; c < sample.cells(); ++c) section[c] = &stage.cell(sample.group_names[sample.group[c]]);
   return section;
+}
+
+/// Factor on the thickness of a cell's wall: stretching, mass and F_Y are in proportion to it, M_Y to its square, bending to its cube.
+double thickness_factor(const Sample& s, std::size_t c) { return s.cell_thickness.empty() ? 1 : s.cell_thickness[c]; }
+
+/// What is given directly cannot follow a thickness that varies from cell to cell.
+void refuse_rigid_thickness(const Sample& s, const std::vector<const CellScene*>& section) {
+  std::set<const CellScene*> seen;
+  for (std::size_t c = 0; c < section.size(); ++c) {
+    if (thickness_factor(s, c) == 1 || !seen.insert(section[c]).second) continue;
+    const CellScene& cell = *section[c];
+    for (const auto& [given, key] : {std::pair{cell.axial_rigidity.has_value(), "axial_rigidity"},
+                                     {cell.bending_rigidity.has_value(), "bending_rigidity"},
+                                     {cell.mass_per_length.has_value(), "mass_per_length"},
+                                     {cell.yield_force.has_value(), "yield_force"},
+                                     {cell.yield_moment.has_value(), "yield_moment"},
+                                     {cell.break_force.has_value(), "break_force"}})
+      if (given)
+        throw SceneError(fmt::format(
+            "line {}: cells.{}: the sample's walls vary in thickness, which this does not follow; give young, density, "
+            "yield_stress or break_stress instead",
+            cell.line, key));
+  }
 }
 
 /// Half the segments on either side of each node [m].
@@ -32,7 +56,7 @@ void set_masses(Model& model, const std::vector<const CellScene*>& section, cons
   model.mass.assign(s.nodes(), 0.0);
   model.inverse_mass.resize(s.nodes());
   for (Index c = 0; c < s.cells(); ++c) {
-    const double line = section[c]->line_density();
+    const double line = section[c]->line_density() * thickness_factor(s, c);
     const double core = section[c]->core && s.closed[c]
                             ? section[c]->core->density * section[c]->depth * s.rest_area[c] / s.cell_size(c)
                             : 0.0;
@@ -60,6 +84,13 @@ std::vector<double> yields(const std::vector<const CellScene*>& section, Get get
   return out;
 }
 
+/// Multiplies by a power of the cells' thickness factors.
+std::vector<double> by_thickness(const Sample& s, std::vector<double> values, int power) {
+  if (!s.cell_thickness.empty())
+    for (std::size_t c = 0; c < values.size(); ++c) values[c] *= std::pow(s.cell_thickness[c], power);
+  return values;
+}
+
 void add_core(Model& model, const std::vector<const CellScene*>& section) {
   const Sample& s = model.sample;
   CoreParameters p;
@@ -73,7 +104,8 @@ void add_core(Model& model, const std::vector<const CellScene*>& section) {
         // eta = K / (E' h / 2 R), with R of the circle of the cell's rest area
         const double radius = std::sqrt(s.rest_area[c] / M_PI);
         modulus = core->modulus ? *core->modulus
-                                : core->stiffness_ratio.value_or(0) * section[c]->axial() / (depth * 2 * radius);
+                                : core->stiffness_ratio.value_or(0) * section[c]->axial() * thickness_factor(s, c) /
+                                      (depth * 2 * radius);
       }
       if (core->drained && !core->pressure_history.empty())
         model.pressure_histories.push_back({c, &core->pressure_history});
@@ -122,15 +154,24 @@ void check_toughness(const LinkScene& scene, const ZoneLink& unit) {
       less * unit.strength_n, force, less * unit.strength_t, force));
 }
 
+double strength_factor(const Sample& s, std::size_t link) { return s.link_strength.empty() ? 1 : s.link_strength[link]; }
+
 /// Toughnesses of all links; 0 where they are brittle.
 void add_toughness(LinkParameters& p, const Sample& s, const std::vector<const LinkScene*>& section) {
-  std::set<const LinkScene*> checked;
+  std::map<const LinkScene*, double> strongest;
+  for (std::size_t l = 0; l < s.links.size(); ++l)
+    strongest[section[l]] = std::max(strongest[section[l]], strength_factor(s, l));
+  for (const auto& [scene, factor] : strongest) {
+    if (scene->law != "cohesive_zone") continue;
+    ZoneLink unit = zone_of(*scene, p);
+    unit.strength_n *= factor, unit.strength_t *= factor;
+    check_toughness(*scene, unit);
+  }
   for (std::size_t l = 0; l < s.links.size(); ++l) {
     const LinkScene& scene = *section[l];
     double opening = 0, shear = 0;
     if (scene.law == "cohesive_zone") {
       const ZoneLink unit = zone_of(scene, p);
-      if (checked.insert(&scene).second) check_toughness(scene, unit);
       const double share = scene.per == "length" ? s.links[l].length : 1.0;
       opening = share * unit.toughness_n, shear = share * unit.toughness_t;
     }
@@ -148,7 +189,8 @@ void add_links(Model& model, const Stage& stage) {
   p.mixing_exponent = main.mixing_exponent.value_or(p.mixing == ModeMixing::kPower ? 1 : 2);
   std::vector<const LinkScene*> section;
   std::set<bool> breakable;
-  for (const Link& link : s.links) {
+  for (std::size_t l = 0; l < s.links.size(); ++l) {
+    const Link& link = s.links[l];
     const LinkScene& scene =
         link_section(stage, s.group_names[s.group[cell_of[link.a]]], s.group_names[s.group[cell_of[link.b]]]);
     section.push_back(&scene);
@@ -158,9 +200,10 @@ void add_links(Model& model, const Stage& stage) {
     p.tangential_stiffness.push_back(share * scene.tangential_stiffness);
     breakable.insert(scene.normal_strength.has_value());
     if (!scene.normal_strength) continue;
-    p.normal_strength.push_back(share * *scene.normal_strength);
-    p.tangential_strength.push_back(share * scene.tangential_strength.value_or(*scene.normal_strength));
-    p.full_energy.push_back(full * *scene.normal_strength * *scene.normal_strength / (2 * scene.normal_stiffness));
+    const double factor = strength_factor(s, l), strength = factor * *scene.normal_strength;
+    p.normal_strength.push_back(share * strength);
+    p.tangential_strength.push_back(share * factor * scene.tangential_strength.value_or(*scene.normal_strength));
+    p.full_energy.push_back(full * strength * strength / (2 * scene.normal_stiffness));
   }
   if (breakable.size() == 2)
     throw SceneError(
@@ -212,7 +255,7 @@ void add_contacts(Model& model, const Stage& stage, const std::vector<double>& t
 /// Values of an optional strength per cell: infinite where absent; empty when no cell has one.
 WallStrength wall_strength(const Sample& sample, const std::vector<const CellScene*>& section) {
   WallStrength strength;
-  strength.force = yields(section, [](const CellScene& c) { return c.bar_strength(); });
+  strength.force = by_thickness(sample, yields(section, [](const CellScene& c) { return c.bar_strength(); }), 1);
   strength.strain = yields(section, [](const CellScene& c) { return c.break_strain; });
   for (Index c = 0; c < sample.cells(); ++c) {
     const auto force = section[c]->bar_strength(), flow = section[c]->bar_yield();
@@ -230,6 +273,7 @@ std::unique_ptr<Model> assemble(const Sample& sample, const Stage& stage, const 
   auto model = std::make_unique<Model>(sample);
   const auto section = cell_sections(sample, stage);
   const auto tributary = tributary_lengths(sample);
+  refuse_rigid_thickness(sample, section);
   set_masses(*model, section, tributary);
 
   std::vector<double> axial, bending, bar_dashpot, hinge_dashpot;
@@ -241,13 +285,17 @@ std::unique_ptr<Model> assemble(const Sample& sample, const Stage& stage, const 
     hinge_dashpot.push_back(cell->hinge_dashpot);
     dashpots = dashpots || cell->bar_dashpot > 0 || cell->hinge_dashpot > 0;
   }
-  model->bars =
-      std::make_unique<Bars>(model->layout, axial, yields(section, [](const CellScene& c) { return c.bar_yield(); }));
+  axial = by_thickness(sample, std::move(axial), 1), bending = by_thickness(sample, std::move(bending), 3);
+  bar_dashpot = by_thickness(sample, std::move(bar_dashpot), 1);  // as a wall of one viscosity
+  hinge_dashpot = by_thickness(sample, std::move(hinge_dashpot), 3);
+  model->bars = std::make_unique<Bars>(
+      model->layout, axial, by_thickness(sample, yields(section, [](const CellScene& c) { return c.bar_yield(); }), 1));
   bool bends = false;
   for (double b : bending) bends = bends || b > 0;
   if (bends)
-    model->hinges = std::make_unique<Hinges>(model->layout, bending,
-                                             yields(section, [](const CellScene& c) { return c.hinge_yield(); }));
+    model->hinges = std::make_unique<Hinges>(
+        model->layout, bending,
+        by_thickness(sample, yields(section, [](const CellScene& c) { return c.hinge_yield(); }), 2));
   add_core(*model, section);
   if (!stage.links.empty()) {
     if (sample.links.empty())

@@ -284,6 +284,7 @@ std::vector<Index> tessellate_sites(const std::vector<Disk>& disks, const std::v
 }  // namespace
 
 Tessellation tessellate(const std::vector<Disk>& disks, const Box& box, const LaguerreOptions& options) {
+  if (options.periodic[0] || options.periodic[1]) throw SceneError("periodic tessellation: to come");
   refuse_bad_disks(disks, box);
   Tessellation result;
   result.box = box;
@@ -308,6 +309,28 @@ Tessellation tessellate(const std::vector<Disk>& disks, const Box& box, const La
   result.hidden.insert(result.hidden.end(), hidden.begin(), hidden.end());
   std::sort(result.hidden.begin(), result.hidden.end());
   return result;
+}
+
+Tessellation tessellate(const std::vector<Vec2>& centres, const std::vector<double>& weights, const Box& box,
+                        const LaguerreOptions& options) {
+  std::vector<Disk> disks;
+  const double least = weights.empty() ? 0 : *std::min_element(weights.begin(), weights.end());
+  for (std::size_t i = 0; i < centres.size(); ++i) disks.push_back({centres[i], std::sqrt(weights[i] - least)});
+  return tessellate(disks, box, options);
+}
+
+TileMeasures measure_tiles(const std::vector<Vec2>& centres, const std::vector<double>& weights, const Box& box,
+                           Periodic periodic) {
+  const Tessellation t = tessellate(centres, weights, box, {Duplicates::kKeepFirst, Hidden::kReport, periodic});
+  TileMeasures measures{std::vector<double>(centres.size(), 0), centres, {}};
+  for (const Tile& tile : t.tiles) {
+    measures.area[tile.site] = tile_area(t, tile);
+    measures.centroid[tile.site] = tile_centroid(t, tile);
+    for (std::size_t k = 0; k < tile.vertex.size(); ++k)
+      if (tile.neighbour[k] > tile.site)
+        measures.walls.push_back({tile.site, tile.neighbour[k], {0, 0}, edge_length(t, tile, k)});
+  }
+  return measures;
 }
 
 }  // namespace lamella

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -10,60 +9,41 @@
 namespace lamella {
 namespace {
 
-/// A disk that may come to touch, at an image of the periodic box.
-struct Neighbour {
-  std::int32_t disk;
-  std::int16_t image_x, image_y;
-};
+using Eigen::ArrayXd;
+using Eigen::Index;
 
-/// Uniform grid over the box; the disks of cell c are [begin[c], begin[c + 1]) once sorted.
-struct Grid {
-  Vec2 size;
-  int columns = 1, rows = 1;
-  std::vector<std::int32_t> begin;
+// Loops over disks and pairs go by blocks that stay in the nearest cache, each a few loops without branches.
+constexpr Index kBlock = 256;
+using Block = Eigen::Array<double, Eigen::Dynamic, 1, 0, kBlock, 1>;
 
-  Grid(const Vec2& box, double cell)
-      : size(box),
-        columns(count(box.x(), cell)),
-        rows(count(box.y(), cell)),
-        begin(static_cast<std::size_t>(columns) * rows + 1) {}
-  int column(double x) const { return static_cast<int>(std::floor(x / size.x() * columns)); }
-  int row(double y) const { return static_cast<int>(std::floor(y / size.y() * rows)); }
-  std::size_t cell(const Vec2& p) const {
-    return static_cast<std::size_t>(std::clamp(row(p.y()), 0, rows - 1)) * columns +
-           std::clamp(column(p.x()), 0, columns - 1);
-  }
+constexpr double kLargestStep = 0.45;  // of time; stable up to 2 / sqrt(2 x 6 contacts) = 0.57
+constexpr double kLongestMove =
+    0.2;                       // in mean radii: disks that start on top of each other are not shot across the box
+constexpr double kSkin = 0.8;  // in mean radii
+constexpr double kTiny = std::numeric_limits<double>::min();
 
- private:
-  static int count(double length, double cell) { return static_cast<int>(std::clamp(length / cell, 1.0, 8192.0)); }
-};
+bool crosses(const Wall& wall, const Vec2& from, const Vec2& to) {
+  const Vec2 d = wall.b - wall.a;
+  const double side = cross(d, from - wall.a), other_side = cross(d, to - wall.a);
+  if ((side > 0) == (other_side > 0)) return false;
+  return (cross(to - from, wall.a - from) > 0) != (cross(to - from, wall.b - from) > 0);
+}
 
 class Fire {
  public:
   Fire(SoftDisks& disks, const RelaxationGoal& goal)
-      : disks_(disks),
-        goal_(goal),
-        n_(disks.x.size()),
-        id_(n_),
-        x_(disks.x),
-        x_listed_(n_),
-        v_(n_, Vec2::Zero()),
-        f_(n_, Vec2::Zero()),
-        radius_(disks.radius),
-        mass_(n_),
-        mean_radius_(std::accumulate(radius_.begin(), radius_.end(), 0.0) / static_cast<double>(n_)),
-        skin_(0.3 * mean_radius_) {
+      : disks_(disks), goal_(goal), n_(static_cast<Index>(disks.x.size())), id_(n_) {
     std::iota(id_.begin(), id_.end(), 0);
-    for (std::size_t i = 0; i < n_; ++i) {
-      // A large disk among small ones has contacts in proportion to its radius, and needs mass in proportion to be stable.
-      mass_[i] = std::max(1.0, radius_[i] / mean_radius_);
-      radius_[i] *= 1 + 1.5 * goal.clearance;  // half the clearance more than asked: reached in finite time
-    }
+    for (ArrayXd* a : {&x_, &y_, &vx_, &vy_, &fx_, &fy_, &radius_, &mass_}) a->setZero(n_);
+    for (Index i = 0; i < n_; ++i) x_[i] = disks.x[i].x(), y_[i] = disks.x[i].y(), radius_[i] = disks.radius[i];
+    mean_radius_ = radius_.mean();
+    // A large disk among small ones has contacts in proportion to its radius, and needs mass in proportion to be stable.
+    mass_ = (radius_ / mean_radius_).max(1.0);
+    radius_ *= 1 + goal.clearance;
     list_neighbours();
   }
 
   Relaxation run(const std::function<void(const Relaxation&)>& progress) {
-    constexpr double kLargestStep = 0.4;  // stable up to 2 / sqrt(2 x 6 contacts) = 0.57
     double dt = 0.1, mixing = 0.1;
     int downhill = 0;
     Relaxation state;
@@ -73,160 +53,192 @@ class Fire {
       if (state.end != RelaxationEnd::kOutOfSteps) break;
 
       double power = 0, v2 = 0, a2 = 0;
-      for (std::size_t i = 0; i < n_; ++i) {
-        power += f_[i].dot(v_[i]);
-        v2 += v_[i].squaredNorm();
-        a2 += f_[i].squaredNorm() / (mass_[i] * mass_[i]);
+      for (Index begin = 0; begin < n_; begin += kBlock) {
+        const Index m = std::min(kBlock, n_ - begin);
+        const auto vx = vx_.segment(begin, m), vy = vy_.segment(begin, m);
+        const auto fx = fx_.segment(begin, m), fy = fy_.segment(begin, m);
+        power += (fx * vx + fy * vy).sum();
+        v2 += (vx * vx + vy * vy).sum();
+        a2 += ((fx * fx + fy * fy) / mass_.segment(begin, m).square()).sum();
       }
       if (power > 0) {
         if (++downhill > 5) dt = std::min(1.1 * dt, kLargestStep), mixing *= 0.99;
       } else {
         downhill = 0, dt *= 0.5, mixing = 0.1;
       }
-      const double keep = power > 0 ? 1 - mixing : 0, steer = power > 0 && a2 > 0 ? mixing * std::sqrt(v2 / a2) : 0;
-      move(dt, keep, steer);
+      move(dt, power > 0 ? 1 - mixing : 0, power > 0 && a2 > 0 ? mixing * std::sqrt(v2 / a2) : 0);
     }
     wrap_into_box();
-    for (std::size_t i = 0; i < n_; ++i) disks_.x[id_[i]] = x_[i];
+    for (Index i = 0; i < n_; ++i) disks_.x[id_[i]] = {x_[i], y_[i]};
     return state;
   }
 
  private:
+  /// v = keep v + (steer + dt) a; x += dt v.
   void move(double dt, double keep, double steer) {
-    const double limit = 0.2 * mean_radius_;  // disks that start on top of each other are not shot across the box
+    const double limit = kLongestMove * mean_radius_;
     double farthest2 = 0;
-    for (std::size_t i = 0; i < n_; ++i) {
-      const Vec2 a = f_[i] / mass_[i];
-      v_[i] = keep * v_[i] + (steer + dt) * a;
-      Vec2 step = dt * v_[i];
-      const double length2 = step.squaredNorm();
-      if (length2 > limit * limit) {
-        const double scale = limit / std::sqrt(length2);
-        step *= scale, v_[i] *= scale;
-      }
-      x_[i] += step;
-      farthest2 = std::max(farthest2, (x_[i] - x_listed_[i]).squaredNorm());
+    remember_at_walls();
+    for (Index begin = 0; begin < n_; begin += kBlock) {
+      const Index m = std::min(kBlock, n_ - begin);
+      auto x = x_.segment(begin, m), y = y_.segment(begin, m), vx = vx_.segment(begin, m), vy = vy_.segment(begin, m);
+      const Block gain = (steer + dt) / mass_.segment(begin, m);
+      vx = keep * vx + gain * fx_.segment(begin, m);
+      vy = keep * vy + gain * fy_.segment(begin, m);
+      const Block slow = (limit / (dt * (vx * vx + vy * vy).sqrt() + kTiny)).min(1.0);
+      vx *= slow, vy *= slow;
+      x += dt * vx, y += dt * vy;
+      farthest2 = std::max(
+          farthest2,
+          ((x - x_listed_.segment(begin, m)).square() + (y - y_listed_.segment(begin, m)).square()).maxCoeff());
     }
-    if (farthest2 > skin_ * skin_ / 4) list_neighbours();
+    stop_at_walls();
+    if (farthest2 > std::pow(kSkin * mean_radius_ / 2, 2)) list_neighbours();
   }
 
+  void remember_at_walls() {
+    before_.clear();
+    for (const auto& [i, w] : list_.at_wall) before_.emplace_back(x_[i], y_[i]);
+  }
+
+  /// Takes back the steps that cross a wall.
+  void stop_at_walls() {
+    for (std::size_t k = 0; k < list_.at_wall.size(); ++k) {
+      const auto [i, w] = list_.at_wall[k];
+      if (crosses(disks_.walls[w], before_[k], {x_[i], y_[i]}))
+        x_[i] = before_[k].x(), y_[i] = before_[k].y(), vx_[i] = vy_[i] = 0;
+    }
+  }
+
+  struct Sums {
+    double virial = 0, overlap = 0, largest = 0;
+    Index contacts = 0;
+  };
+
   void compute_forces(Relaxation& state) {
-    for (Vec2& f : f_) f.setZero();
-    const double width = disks_.size.x(), height = disks_.size.y();
-    double virial = 0, sum = 0, largest = 0;
-    long contacts = 0;
-    for (std::size_t i = 0; i < n_; ++i) {
-      const Vec2 xi = x_[i];
-      const double ri = radius_[i];
-      Vec2 fi = Vec2::Zero();
-      for (auto k = list_begin_[i]; k < list_begin_[i + 1]; ++k) {
-        const Neighbour& neighbour = list_[k];
-        const Vec2 d = x_[neighbour.disk] + Vec2(neighbour.image_x * width, neighbour.image_y * height) - xi;
-        const double reach = ri + radius_[neighbour.disk], d2 = d.squaredNorm();
-        if (d2 >= reach * reach || d2 == 0) continue;
-        const double distance = std::sqrt(d2), overlap = reach - distance;
-        const Vec2 f = (overlap / distance) * d;
-        fi -= f;
-        f_[neighbour.disk] += f;
-        virial += overlap * distance;
-        sum += overlap;
-        ++contacts;
-        largest = std::max(largest, overlap / reach);
-      }
-      f_[i] += fi;
+    const auto ghosts = static_cast<Index>(list_.ghosts.size());
+    for (Index g = 0; g < ghosts; ++g) {
+      const Ghost& ghost = list_.ghosts[g];
+      x_[n_ + g] = x_[ghost.owner] + ghost.shift.x();
+      y_[n_ + g] = y_[ghost.owner] + ghost.shift.y();
     }
-    for (int axis = 0; axis < 2; ++axis) {
-      if (!disks_.periodic[axis]) {
-        for (std::size_t i = 0; i < n_; ++i) {
-          const double low = radius_[i] - x_[i][axis], high = x_[i][axis] + radius_[i] - disks_.size[axis];
-          for (const auto& [overlap, direction] : {std::pair{low, 1.0}, std::pair{high, -1.0}}) {
-            if (overlap <= 0) continue;
-            f_[i][axis] += overlap * direction;
-            virial += overlap * radius_[i];
-            sum += overlap;
-            ++contacts;
-            largest = std::max(largest, overlap / radius_[i]);
-          }
-        }
-      }
+    fx_.setZero(), fy_.setZero();
+    Sums sums;
+    add_pairs(sums);
+    for (Index g = 0; g < ghosts; ++g) {
+      fx_[list_.ghosts[g].owner] += fx_[n_ + g];
+      fy_[list_.ghosts[g].owner] += fy_[n_ + g];
     }
-    state.pressure = virial / (2 * width * height);
-    state.overlap = largest;
-    double f2 = 0;
-    for (const Vec2& f : f_) f2 = std::max(f2, f.squaredNorm());
-    // 1 + 1.5 c less a third of that excess is 1 + c; walls the same, by the radius alone.
-    if (largest <= 0.4 * goal_.clearance)
+    if (!disks_.periodic[0]) add_sides(x_, fx_, disks_.size.x(), sums);
+    if (!disks_.periodic[1]) add_sides(y_, fy_, disks_.size.y(), sums);
+    add_walls(sums);
+
+    state.pressure = sums.virial / (2 * disks_.area);
+    state.overlap = sums.largest;
+    // 5 % of the clearance are left for rounding.
+    if (sums.largest <= 0.95 * goal_.clearance / (1 + goal_.clearance))
       state.end = RelaxationEnd::kSeparated;
-    else if (std::sqrt(f2) < goal_.balance * sum / static_cast<double>(contacts))
+    else if (largest_force() < goal_.balance * sums.overlap / static_cast<double>(sums.contacts))
       state.end = RelaxationEnd::kBalanced;
   }
 
-  void wrap_into_box() {
-    for (const int axis : {0, 1})
-      if (disks_.periodic[axis])
-        for (Vec2& x : x_) x[axis] -= std::floor(x[axis] / disks_.size[axis]) * disks_.size[axis];
+  double largest_force() const { return std::sqrt((fx_.head(n_).square() + fy_.head(n_).square()).maxCoeff()); }
+
+  void add_pairs(Sums& sums) {
+    const auto pairs = static_cast<Index>(list_.first.size());
+    Block dx(kBlock), dy(kBlock), reach(kBlock), distance, overlap, factor;
+    for (Index begin = 0; begin < pairs; begin += kBlock) {
+      const Index m = std::min(kBlock, pairs - begin);
+      const std::int32_t *first = list_.first.data() + begin, *second = list_.second.data() + begin;
+      dx.resize(m), dy.resize(m), reach.resize(m);
+      for (Index k = 0; k < m; ++k) {
+        const std::int32_t i = first[k], j = second[k];
+        dx[k] = x_[j] - x_[i], dy[k] = y_[j] - y_[i], reach[k] = radius_[i] + radius_[j];
+      }
+      distance = (dx * dx + dy * dy).sqrt();
+      overlap = (reach - distance).max(0.0);
+      factor = overlap / (distance + kTiny);
+      dx *= factor, dy *= factor;
+      sums.virial += (overlap * distance).sum();
+      sums.overlap += overlap.sum();
+      sums.largest = std::max(sums.largest, (overlap / reach).maxCoeff());
+      sums.contacts += (overlap > 0).count();
+      for (Index k = 0; k < m; ++k) {
+        const std::int32_t i = first[k], j = second[k];
+        fx_[i] -= dx[k], fy_[i] -= dy[k];
+        fx_[j] += dx[k], fy_[j] += dy[k];
+      }
+    }
   }
 
-  /// Pairs that can touch before one of them has moved by half the skin. Disks are put in the order of the grid's cells on
-  /// the way, so that neighbours are near in memory.
+  /// The two sides of the box that bound one coordinate.
+  void add_sides(const ArrayXd& x, ArrayXd& f, double length, Sums& sums) {
+    Block low, high, both;
+    for (Index begin = 0; begin < n_; begin += kBlock) {
+      const Index m = std::min(kBlock, n_ - begin);
+      const auto r = radius_.segment(begin, m);
+      const auto at = x.segment(begin, m);
+      low = (r - at).max(0.0);
+      high = (at + r - length).max(0.0);
+      f.segment(begin, m) += low - high;
+      both = low + high;
+      sums.virial += (both * r).sum();
+      sums.overlap += both.sum();
+      sums.largest = std::max(sums.largest, (both / r).maxCoeff());
+      sums.contacts += (both > 0).count();
+    }
+  }
+
+  void add_walls(Sums& sums) {
+    for (const auto& [i, w] : list_.at_wall) {
+      const Wall& wall = disks_.walls[w];
+      const Vec2 along = wall.b - wall.a, from = Vec2(x_[i], y_[i]) - wall.a;
+      const Vec2 d = from - std::clamp(from.dot(along) / along.squaredNorm(), 0.0, 1.0) * along;
+      const double distance = d.norm(), overlap = radius_[i] - distance;
+      if (overlap <= 0 || distance == 0) continue;
+      fx_[i] += overlap / distance * d.x(), fy_[i] += overlap / distance * d.y();
+      sums.virial += overlap * radius_[i];
+      sums.overlap += overlap;
+      sums.largest = std::max(sums.largest, overlap / radius_[i]);
+      ++sums.contacts;
+    }
+  }
+
+  void wrap_into_box() {
+    if (disks_.periodic[0]) x_ -= (x_ / disks_.size.x()).floor() * disks_.size.x();
+    if (disks_.periodic[1]) y_ -= (y_ / disks_.size.y()).floor() * disks_.size.y();
+  }
+
+  /// Pairs that can touch before one of their disks has moved by half the skin.
   void list_neighbours() {
     wrap_into_box();
-    Grid grid(disks_.size, 2 * mean_radius_ + skin_);
-    sort_by_cell(grid);
-    x_listed_ = x_;
-    list_.clear();
-    list_begin_.assign(1, 0);
-    for (std::size_t i = 0; i < n_; ++i) {
-      // Every pair is found from its larger disk, so that small disks need not look as far as the largest reaches.
-      const Vec2 far = Vec2::Constant(2 * radius_[i] + skin_);
-      const Vec2 lo = x_[i] - far, hi = x_[i] + far;
-      for (int row = grid.row(lo.y()); row <= grid.row(hi.y()); ++row)
-        for (int column = grid.column(lo.x()); column <= grid.column(hi.x()); ++column)
-          add_neighbours(grid, i, column, row);
-      list_begin_.push_back(list_.size());
-    }
-  }
-
-  void add_neighbours(const Grid& grid, std::size_t i, int column, int row) {
-    const auto wrap = [](int at, int count) { return at >= 0 ? at / count : -((count - 1 - at) / count); };
-    const int image_x = wrap(column, grid.columns), image_y = wrap(row, grid.rows);
-    if ((image_x != 0 && !disks_.periodic[0]) || (image_y != 0 && !disks_.periodic[1])) return;
-    const std::size_t cell =
-        static_cast<std::size_t>(row - image_y * grid.rows) * grid.columns + (column - image_x * grid.columns);
-    const Vec2 from = x_[i] - Vec2(image_x * disks_.size.x(), image_y * disks_.size.y());
-    for (auto j = static_cast<std::size_t>(grid.begin[cell]); j < static_cast<std::size_t>(grid.begin[cell + 1]); ++j) {
-      if (j == i || radius_[j] > radius_[i] || (radius_[j] == radius_[i] && j > i)) continue;
-      const double reach = radius_[i] + radius_[j] + skin_;
-      if ((x_[j] - from).squaredNorm() < reach * reach)
-        list_.push_back(
-            {static_cast<std::int32_t>(j), static_cast<std::int16_t>(image_x), static_cast<std::int16_t>(image_y)});
-    }
-  }
-
-  void sort_by_cell(Grid& grid) {
-    std::vector<std::size_t> cell(n_);
-    for (std::size_t i = 0; i < n_; ++i) ++grid.begin[(cell[i] = grid.cell(x_[i])) + 1];
-    std::partial_sum(grid.begin.begin(), grid.begin.end(), grid.begin.begin());
-    std::vector<std::int32_t> next(grid.begin.begin(), grid.begin.end() - 1);
-    std::vector<std::int32_t> place(n_);
-    for (std::size_t i = 0; i < n_; ++i) place[i] = next[cell[i]]++;
+    const double skin = kSkin * mean_radius_;
+    NeighbourGrid grid(disks_.size, disks_.periodic, 2 * mean_radius_ + skin);
+    const DiskArrays arrays{x_, y_, radius_, n_};
+    const std::vector<std::int32_t> place = grid.order(arrays);
     const auto permute = [&](auto& values) {
       auto sorted = values;
-      for (std::size_t i = 0; i < n_; ++i) sorted[place[i]] = values[i];
+      for (Index i = 0; i < n_; ++i) sorted[place[i]] = values[i];
       values = std::move(sorted);
     };
-    permute(id_), permute(x_), permute(v_), permute(radius_), permute(mass_);
+    permute(id_);
+    for (ArrayXd* a : {&x_, &y_, &vx_, &vy_, &fx_, &fy_, &radius_, &mass_}) permute(*a);
+    x_listed_ = x_.head(n_), y_listed_ = y_.head(n_);
+    list_ = grid.list(arrays, disks_.walls, skin);
+    const auto ghosts = static_cast<Index>(list_.ghosts.size());
+    for (ArrayXd* a : {&x_, &y_, &fx_, &fy_, &radius_}) a->conservativeResize(n_ + ghosts);
+    for (Index g = 0; g < ghosts; ++g) radius_[n_ + g] = radius_[list_.ghosts[g].owner];
   }
 
   SoftDisks& disks_;
   const RelaxationGoal& goal_;
-  std::size_t n_;
-  std::vector<std::int32_t> id_;  // of the caller
-  std::vector<Vec2> x_, x_listed_, v_, f_;
-  std::vector<double> radius_, mass_;
-  double mean_radius_, skin_;
-  std::vector<Neighbour> list_;  // of disk i: [list_begin_[i], list_begin_[i + 1])
-  std::vector<std::size_t> list_begin_;
+  Index n_;
+  std::vector<std::int32_t> id_;                       // of the caller
+  ArrayXd x_, y_, vx_, vy_, fx_, fy_, radius_, mass_;  // where pairs look things up, ghosts follow the disks
+  ArrayXd x_listed_, y_listed_;
+  double mean_radius_ = 0;
+  Neighbours list_;
+  std::vector<Vec2> before_;  // where the disks of list_.at_wall were before a step
 };
 
 }  // namespace

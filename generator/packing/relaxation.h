@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include "generator/packing/neighbours.h"
 #include "generator/sample/vec.h"
 
 namespace lamella {
@@ -11,13 +12,15 @@ namespace lamella {
 /// Disks in the box [0, size], between walls or, in some directions, periodic.
 struct SoftDisks {
   Vec2 size = Vec2::Zero();
+  double area = 0;  // that they fill: of the box, or of what the walls leave of it
   Periodic periodic{false, false};
+  std::vector<Wall> walls;  // more of them, inside the box; no centre crosses one
   std::vector<Vec2> x;
   std::vector<double> radius;
 };
 
 struct RelaxationGoal {
-  double clearance = 0;   // separated: every gap is at least this part of the sum of the two radii
+  double clearance = 0;   // disks are larger by this part while they are pushed; separated: those of true size are
   double balance = 1e-4;  // balanced: largest net force below this part of the mean force of a contact
   int steps = 100000;     // give up after so many
 };

@@ -140,6 +140,7 @@ void read_cells(const h5::Node& group, Index nodes, Sample& sample) {
   sample.radius = rows.at_least_zero("radius");
   sample.rest_area = rows.at_least_zero("rest_area");
   sample.tile_area = rows.at_least_zero("tile_area");
+  if (group.has("thickness")) sample.cell_thickness = rows.positive("thickness");
   for (std::size_t c = 0; c < cells; ++c)
     if (sample.closed[c] && sample.rest_area[c] <= 0)
       rows.refuse("rest_area", c, sample.rest_area[c], "positive, because the cell is closed");
@@ -218,6 +219,7 @@ void read_links(const h5::Node& group, Index nodes, Sample& sample) {
   const auto length = rows.positive("length");
   const auto spacing = rows.positive("spacing");
   const auto offset = rows.doubles("offset", 2);
+  if (group.has("strength")) sample.link_strength = rows.positive("strength");
   sample.links.resize(length.size());
   for (std::size_t l = 0; l < length.size(); ++l) {
     Link& link = sample.links[l];
@@ -270,6 +272,7 @@ void write_sample(h5::Node& group, const Sample& sample) {
   cells.write("radius", sample.radius);
   cells.write("rest_area", sample.rest_area);
   cells.write("tile_area", sample.tile_area);
+  if (!sample.cell_thickness.empty()) cells.write("thickness", sample.cell_thickness);
   cells.write_texts("group_names", sample.group_names);
 
   auto walls = group.make_group("walls");
@@ -302,6 +305,7 @@ void write_sample(h5::Node& group, const Sample& sample) {
               columns<double>(
                   l, [](auto& e) { return e.offset_n; }, [](auto& e) { return e.offset_t; }),
               2);
+  if (!sample.link_strength.empty()) links.write("strength", sample.link_strength);
 }
 
 Sample read_sample(const h5::Node& group) {

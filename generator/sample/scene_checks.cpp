@@ -144,6 +144,7 @@ void check_sample_section(const Value& table, const SampleScene& sample, Faults&
       faults.add(has(table, "sizes") ? sizes : table, "sample.sizes.mean",
                  "missing; give the mean radius, or width and height of the box");
   }
+  check_tissue_sections(table, sample, faults);
   if (const Value* notch = table.find("notch"); notch && notch->is_table()) {
     if (!has(*notch, "line") && !has(*notch, "polygon"))
       faults.add(*notch, "sample.notch", "is empty; give a line or a polygon");

@@ -9,6 +9,8 @@ namespace lamella {
 
 void check_alternatives(const Value& table, const std::string& path, Faults& faults);
 void check_sample_section(const Value& table, const SampleScene& sample, Faults& faults);
+/// Domain, layers, gradient, stretch and bricks.
+void check_tissue_sections(const Value& table, const SampleScene& sample, Faults& faults);
 void check_layer(const Value& table, const std::string& path, const LayerScene& layer, Faults& faults);
 void check_mixture(const Value& table, const std::string& path, const MixtureScene& part, Faults& faults);
 void check_hole(const Value& table, const std::string& path, const HoleScene& hole, Faults& faults);
@@ -26,5 +28,7 @@ void check_loading(const Value& table, const LoadingScene& loading, Faults& faul
 void check_stage(const Value& at, const std::string& path, const Stage& stage, Faults& faults);
 /// Groups that sections and loads name, against those that the sample has.
 void check_groups(const Value& at, const Scene& scene, Faults& faults);
+/// What is given directly, against a thickness of walls that varies.
+void check_varied_thickness(const Value& at, const Scene& scene, Faults& faults);
 
 }  // namespace lamella

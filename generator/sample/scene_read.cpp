@@ -322,7 +322,7 @@ Scene parse_scene(const std::string& text, const std::string& name, const std::v
   else
     scene.sample.kind.clear();  // the sample comes from a file
   scene.stages = read_stages(root, simulates(root) ? Needs::mechanics : Needs::geometry, faults);
-  if (sample) check_groups(root, scene, faults);
+  if (sample) check_groups(root, scene, faults), check_varied_thickness(root, scene, faults);
   faults.raise();
   for (Stage& stage : scene.stages) stage.slow_down(), stage.file = name;
   return scene;

@@ -303,7 +303,7 @@ const std::vector<Row<DomainScene>>& rows() {
        .member = &S::radius,
        .unit = "m",
        .range = kPositive,
-       .sentence = "disk, ring: outer radius.",
+       .sentence = "disk, ring: outer radius; the centre is the origin.",
        .fallback = "required there"},
       {.key = "inner_radius",
        .member = &S::inner_radius,

@@ -44,6 +44,10 @@ bool check_shapes_of_arrays(const Sample& s, std::vector<std::string>& all) {
   if (s.closed.size() != cells || s.group.size() != cells || s.radius.size() != cells || s.rest_area.size() != cells ||
       s.tile_area.size() != cells)
     bad.add("an array per cell does not have {} entries", cells);
+  if (!s.cell_thickness.empty() && s.cell_thickness.size() != cells)
+    bad.add("{} thickness factors for {} cells", s.cell_thickness.size(), cells);
+  if (!s.link_strength.empty() && s.link_strength.size() != s.links.size())
+    bad.add("{} strength factors for {} links", s.link_strength.size(), s.links.size());
   bad.append_to(all);
   return !bad.any();
 }
@@ -76,6 +80,17 @@ void check_cells(const Sample& s, std::vector<std::string>& all) {
   }
   if (tiles > s.box.area() * (1 + 1e-9))
     bad.add("the tiles have {} m2 together, more than the box with {} m2", tiles, s.box.area());
+  bad.append_to(all);
+}
+
+void check_factors(const Sample& s, std::vector<std::string>& all) {
+  Violations bad;
+  for (std::size_t c = 0; c < s.cell_thickness.size(); ++c)
+    if (!(std::isfinite(s.cell_thickness[c]) && s.cell_thickness[c] > 0))
+      bad.add("cell {}: thickness factor {}", c, s.cell_thickness[c]);
+  for (std::size_t l = 0; l < s.link_strength.size(); ++l)
+    if (!(std::isfinite(s.link_strength[l]) && s.link_strength[l] > 0))
+      bad.add("link {}: strength factor {}", l, s.link_strength[l]);
   bad.append_to(all);
 }
 
@@ -174,6 +189,7 @@ std::vector<std::string> check_sample(const Sample& sample) {
   std::vector<std::string> all;
   if (!check_shapes_of_arrays(sample, all)) return all;
   check_cells(sample, all);
+  check_factors(sample, all);
   check_nodes(sample, all);
   check_links(sample, all);
   if (all.empty()) check_crossings(sample, all);

@@ -9,13 +9,16 @@
 
 #include "generator/packing/laguerre.h"
 #include "generator/packing/packing.h"
+#include "generator/packing/variation.h"
 #include "generator/packing/weld.h"
 #include "generator/sample/errors.h"
+#include "generator/tissue/bricks.h"
 #include "generator/tissue/lattice.h"
 #include "generator/tissue/notch.h"
 #include "generator/tissue/polygon_file.h"
 #include "generator/tissue/polygons.h"
 #include "generator/tissue/shapes.h"
+#include "generator/tissue/varied_tissue.h"
 #include "generator/tissue/walls.h"
 
 namespace lamella {
@@ -46,22 +49,35 @@ Sample make_tissue(Mosaic& mosaic, const Scene& scene, Notes& notes) {
     notes.push_back(fmt::format("the notch removes {} cells", removed));
   }
   order_by_rows(mosaic);
-  const double radius = scene.stages.front().cell(kGroup).outline_radius();
-  return make_tissue(mosaic, scene.sample.walls, radius, kGroup, notes);
+  const auto radius = [&](const std::string& group) { return scene.stages.front().cell(group).outline_radius(); };
+  return make_tissue(mosaic, scene.sample.walls, radius, notes);
 }
 
-Sample make_packed_tissue(const Scene& scene, Notes& notes, const Progress& progress) {
-  const Packing packing = make_packing(scene, [&](double done, const std::string& what) {
-    if (progress) progress(0.7 * done, what);
-  });
+Mosaic make_packed_mosaic(const Scene& scene, Notes& notes, const Progress& progress) {
+  if (scene.sample.domain || scene.sample.stretch) return make_domain_mosaic(scene, notes, progress);
+  const Packing packing = make_packing(
+      scene,
+      [&](double done, const std::string& what) {
+        if (progress) progress(0.7 * done, what);
+      },
+      size_factor(scene.sample, {Vec2::Zero(), {scene.sample.width, scene.sample.height}}));
   notes.insert(notes.end(), packing.notes.begin(), packing.notes.end());
   if (progress) progress(0.7, "tessellation");
   Tessellation tessellation = tessellate(packing, scene.sample.packing, notes);
   // Cocircular sites leave edges without length, which no wall can be made of: those are welded whatever is asked.
   const double share = std::max(scene.sample.walls.weld, 1e-9);
   weld_short_edges(tessellation, share * mean_edge_length(tessellation), &notes);
-  if (progress) progress(0.8, "walls");
   Mosaic mosaic = mosaic_of(tessellation);
+  if (!packing.group.empty())
+    for (std::size_t c = 0; c < mosaic.cells.size(); ++c)
+      mosaic.cells[c].group = packing.group[tessellation.tiles[c].site];
+  return mosaic;
+}
+
+Sample make_packed_tissue(const Scene& scene, Notes& notes, const Progress& progress) {
+  Mosaic mosaic = make_packed_mosaic(scene, notes, progress);
+  if (progress) progress(0.8, "walls");
+  vary_cells(mosaic, scene.sample, notes);
   return make_tissue(mosaic, scene, notes);
 }
 
@@ -127,6 +143,9 @@ Sample generate(const Scene& scene, Notes& notes, const std::function<void(doubl
   } else if (asked.kind == "honeycomb") {
     Mosaic mosaic = make_honeycomb(asked);
     sample = make_tissue(mosaic, scene, notes);
+  } else if (asked.kind == "bricks") {
+    Mosaic mosaic = make_bricks(asked);
+    sample = make_tissue(mosaic, scene, notes);
   } else if (asked.kind == "polygons") {
     sample = make_imported_tissue(scene, notes);
   } else if (asked.kind == "shapes") {
@@ -134,7 +153,7 @@ Sample generate(const Scene& scene, Notes& notes, const std::function<void(doubl
     sample.cell_begin.push_back(0);
   } else {
     throw SceneError(
-        fmt::format("sample.kind: unknown kind \"{}\"; tissue, rings, honeycomb, polygons or shapes", asked.kind));
+        fmt::format("sample.kind: unknown kind \"{}\"; tissue, rings, honeycomb, bricks, polygons or shapes", asked.kind));
   }
   if (asked.notch && !asked.notch->line.empty()) cut_links(asked.notch->line, sample, notes);
   for (const ShapeScene& shape : asked.shapes)
@@ -144,6 +163,7 @@ Sample generate(const Scene& scene, Notes& notes, const std::function<void(doubl
     sample.box = enclosing_box(sample);
     if (asked.width > 0 && asked.height > 0) sample.box = {Vec2::Zero(), Vec2(asked.width, asked.height)};
   }
+  vary_links(sample, asked);
   sample.scene_text = scene.text;
   sample.seed = scene.seed;
   if (progress) progress(0.95, "check");

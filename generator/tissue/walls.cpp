@@ -28,18 +28,25 @@ struct InsetSide {
 
 using Sides = std::vector<std::vector<InsetSide>>;
 
-Sides inset_sides(const Mosaic& mosaic, double distance, Notes& notes) {
+Sides inset_sides(const Mosaic& mosaic, const std::vector<double>& distances, Notes& notes) {
   Sides sides(mosaic.cells.size());
   std::vector<std::string> vanished, split, lost;
-  double thinnest = 1e300;
+  double thinnest = 1e300;         // of what vanishes, relative to how far its walls move in
+  double distance = 0, widest = 0;  // of what vanishes first, and of what falls apart
   for (std::size_t c = 0; c < mosaic.cells.size(); ++c) {
     const auto polygon = polygon_of(mosaic, mosaic.cells[c]);
-    const Inset inset = inset_polygon(polygon, distance);
+    const Inset inset = inset_polygon(polygon, distances[c]);
     if (inset.outcome == Inset::Outcome::vanished) {
       vanished.push_back(mosaic.cells[c].name);
-      thinnest = std::min(thinnest, vanishing_distance(polygon));
+      if (const double bearable = vanishing_distance(polygon) / distances[c]; bearable < thinnest) {
+        thinnest = bearable;
+        distance = distances[c];
+      }
     }
-    if (inset.outcome == Inset::Outcome::split) split.push_back(mosaic.cells[c].name);
+    if (inset.outcome == Inset::Outcome::split) {
+      split.push_back(mosaic.cells[c].name);
+      widest = std::max(widest, distances[c]);
+    }
     auto& of_cell = sides[c];
     of_cell.resize(polygon.size());
     for (std::size_t k = 0; k < polygon.size(); ++k) {
@@ -60,12 +67,12 @@ Sides inset_sides(const Mosaic& mosaic, double distance, Notes& notes) {
     faults.push_back(
         fmt::format("{} vanish when walls move in by radius + gap / 2 = {:.4g} m; at most {:.4g} m would "
                     "leave every cell",
-                    listed(vanished), distance, thinnest));
+                    listed(vanished), distance, thinnest * distance));
   if (!split.empty())
     faults.push_back(
         fmt::format("{}: concave, and narrower somewhere than twice radius + gap / 2 = {:.4g} m: choose a "
                     "smaller radius",
-                    listed(split), distance));
+                    listed(split), widest));
   if (!faults.empty()) throw SceneError(faults);
   if (!lost.empty()) notes.push_back(fmt::format("{} edges vanish by the inset: {}", lost.size(), listed(lost)));
   return sides;
@@ -248,7 +255,12 @@ class OutlineWriter {
 }  // namespace
 
 Bonding face_walls(const Mosaic& mosaic, const WallsScene& walls, double radius, Notes& notes) {
-  const double distance = radius + walls.gap / 2;
+  return face_walls(mosaic, walls, std::vector<double>(mosaic.cells.size(), radius), notes);
+}
+
+Bonding face_walls(const Mosaic& mosaic, const WallsScene& walls, const std::vector<double>& radius, Notes& notes) {
+  std::vector<double> distance = radius;
+  for (double& d : distance) d += walls.gap / 2;
   const auto opposite = opposite_edges(mosaic);
   Sides sides = inset_sides(mosaic, distance, notes);
   Bonding bonding;
@@ -274,7 +286,7 @@ Bonding face_walls(const Mosaic& mosaic, const WallsScene& walls, double radius,
     for (std::size_t k = 0; k < count; ++k) {
       const InsetSide& side = sides[c][k];
       if (!side.present) continue;
-      OutlineWriter writer(side, distance, bonding.spacing, cell.side[k], outline);
+      OutlineWriter writer(side, distance[c], bonding.spacing, cell.side[k], outline);
       writer.corner(bits_before);
       bits_before = cell.side[k];
       if (!side.faces()) {
@@ -302,6 +314,28 @@ Sample make_tissue(const Mosaic& mosaic, const WallsScene& walls, double radius,
   sample.box = mosaic.box;
   const Bonding bonding = face_walls(mosaic, walls, radius, notes);
   add_bonded_cells(bonding, radius, group, sample, notes);
+  return sample;
+}
+
+Sample make_tissue(const Mosaic& mosaic, const WallsScene& walls, const RadiusOfGroup& radius_of, Notes& notes) {
+  Sample sample;
+  sample.box = mosaic.box;
+  std::vector<double> radius;
+  bool vary = false;
+  for (const MosaicCell& cell : mosaic.cells) {
+    radius.push_back(radius_of(cell.group) * cell.thickness);
+    vary = vary || cell.thickness != 1;
+  }
+  add_bonded_cells(face_walls(mosaic, walls, radius, notes), 0, "", sample, notes);
+  sample.radius = radius;
+  sample.group_names.clear();
+  for (std::size_t c = 0; c < mosaic.cells.size(); ++c) {
+    auto& names = sample.group_names;
+    const auto known = std::find(names.begin(), names.end(), mosaic.cells[c].group);
+    sample.group[c] = static_cast<Index>(known - names.begin());
+    if (known == names.end()) names.push_back(mosaic.cells[c].group);
+    if (vary) sample.cell_thickness.push_back(mosaic.cells[c].thickness);
+  }
   return sample;
 }
 

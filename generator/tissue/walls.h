@@ -1,7 +1,9 @@
 // From polygons that share walls to shells of mass points that face each other across every shared wall, and to the
 // links that join them.
 #pragma once
+#include <functional>
 #include <string>
+#include <vector>
 
 #include "generator/generate.h"
 #include "generator/sample/sample.h"
@@ -18,9 +20,17 @@ namespace lamella {
 /// oblique, and stress-free all the same). Throws SceneError naming cells that vanish or fall apart. Notes: edges
 /// that vanish, walls with one side only.
 Bonding face_walls(const Mosaic& mosaic, const WallsScene& walls, double radius, Notes& notes);
+/// With a radius per cell [m]: facing points of cells a and b lie radius[a] + radius[b] + gap apart.
+Bonding face_walls(const Mosaic& mosaic, const WallsScene& walls, const std::vector<double>& radius, Notes& notes);
 
 /// The above, as cells of `group` of a sample whose box is that of the mosaic.
 Sample make_tissue(const Mosaic& mosaic, const WallsScene& walls, double radius, const std::string& group,
                    Notes& notes);
+
+/// Minkowski radius of a group's walls [m].
+using RadiusOfGroup = std::function<double(const std::string& group)>;
+
+/// The same with groups and thicknesses as the cells of the mosaic have them. The factors are in the sample if one is not 1.
+Sample make_tissue(const Mosaic& mosaic, const WallsScene& walls, const RadiusOfGroup& radius_of, Notes& notes);
 
 }  // namespace lamella

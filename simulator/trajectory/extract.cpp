@@ -18,9 +18,14 @@ Sample extract_sample(const TrajectoryReader& reader, int frame) {
   if (arrays.find("link_intact")) {
     const std::vector<std::int32_t>& intact = arrays.ints("link_intact");
     std::vector<Link> held;
-    for (std::size_t l = 0; l < sample.links.size(); ++l)
-      if (intact[l] != 0) held.push_back(sample.links[l]);
+    std::vector<double> strength;
+    for (std::size_t l = 0; l < sample.links.size(); ++l) {
+      if (intact[l] == 0) continue;
+      held.push_back(sample.links[l]);
+      if (!sample.link_strength.empty()) strength.push_back(sample.link_strength[l]);
+    }
     sample.links = std::move(held);
+    sample.link_strength = std::move(strength);
   }
   return sample;
 }

@@ -50,6 +50,51 @@ TEST(Walls, face_each_other_exactly_and_without_tangential_offset) {
     }
 }
 
+TEST(Walls, of_cells_with_different_radii_face_each_other_at_the_sum_of_the_two) {
+  Mosaic mosaic = voronoi(60, 1, 0.06);
+  const double gap = 0.001;
+  std::vector<double> radius;
+  for (std::size_t c = 0; c < mosaic.cells.size(); ++c) radius.push_back(0.001 * static_cast<double>(1 + c % 5));
+  Notes notes;
+  const Bonding bonding = face_walls(mosaic, spaced(0.02, gap), radius, notes);
+  std::vector<Vec2> of_a(bonding.pairs.size()), of_b(bonding.pairs.size());
+  std::vector<Index> owner(bonding.pairs.size(), -1);
+  for (const FacingWall& wall : bonding.walls)
+    for (Index p = wall.first; p < wall.first + wall.count; ++p) owner[p] = wall.cell_a;
+  for (std::size_t c = 0; c < bonding.cells.size(); ++c)
+    for (const OutlineNode& node : bonding.cells[c].nodes)
+      if (node.pair >= 0) (owner[node.pair] == static_cast<Index>(c) ? of_a : of_b)[node.pair] = node.at;
+  ASSERT_GT(bonding.walls.size(), 100u);
+  std::set<double> distances;
+  for (const FacingWall& wall : bonding.walls)
+    for (Index p = wall.first; p < wall.first + wall.count; ++p) {
+      const double apart = radius[wall.cell_a] + radius[wall.cell_b] + gap;
+      EXPECT_NEAR((of_b[p] - of_a[p]).dot(wall.direction), 0, 1e-12 * 0.02);
+      EXPECT_NEAR((of_b[p] - of_a[p]).dot(right_of(wall.direction)), apart, 1e-12 * 0.02);
+      distances.insert(apart);
+    }
+  EXPECT_GT(distances.size(), 5u);
+}
+
+TEST(Walls, take_radius_and_group_from_their_cells_and_keep_factors_that_are_not_one) {
+  Mosaic mosaic = squares(3, 1);
+  mosaic.cells[0].group = mosaic.cells[2].group = "stiff";
+  const auto radius_of = [](const std::string& group) { return group == "stiff" ? 0.1 : 0.05; };
+  Notes notes;
+  const Sample plain = make_tissue(mosaic, spaced(0.1), radius_of, notes);
+  EXPECT_EQ(plain.group_names, (std::vector<std::string>{"stiff", "cells"}));
+  EXPECT_EQ(plain.group, (std::vector<Index>{0, 1, 0}));
+  EXPECT_EQ(plain.radius, (std::vector<double>{0.1, 0.05, 0.1}));
+  EXPECT_TRUE(plain.cell_thickness.empty()) << "nothing varies: nothing is stored";
+  for (const Link& link : plain.links) EXPECT_NEAR(link.offset_n, 0.15, 1e-14);
+  mosaic.cells[1].thickness = 3;
+  const Sample thick = make_tissue(mosaic, spaced(0.1), radius_of, notes);
+  EXPECT_EQ(thick.cell_thickness, (std::vector<double>{1, 3, 1}));
+  for (const Link& link : thick.links) EXPECT_NEAR(link.offset_n, 0.25, 1e-14);
+  EXPECT_THAT(check_sample(thick), IsEmpty());
+  EXPECT_NEAR(thick.rest_area[1], 0.7 * 0.7, 1e-14);
+}
+
 TEST(Walls, of_an_irregular_tissue_make_a_sound_sample) {
   for (const double spacing : {0.01, 0.03, 0.06}) {
     for (const double r : {0.0005, 0.003, 0.01}) {
@@ -161,7 +206,7 @@ Mosaic unequal(double slope) {
   Mosaic mosaic;
   mosaic.vertices = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {2, -slope}, {2, 1 + slope}};
   mosaic.box = {Vec2(0, -slope), Vec2(2, 1 + slope)};
-  mosaic.cells = {{{0, 1, 2, 3}, {0, 0, 0, 0}, "left"}, {{1, 4, 5, 2}, {0, 0, 0, 0}, "right"}};
+  mosaic.cells = {{{0, 1, 2, 3}, {0, 0, 0, 0}, "left", {}}, {{1, 4, 5, 2}, {0, 0, 0, 0}, "right", {}}};
   return mosaic;
 }
 
@@ -205,6 +250,18 @@ TEST(Walls, refuse_cells_that_vanish_and_name_them) {
   }
 }
 
+TEST(Walls, refuse_cells_whose_own_radius_is_too_large_and_say_what_would_do) {
+  Mosaic mosaic = squares(3, 1);
+  mosaic.cells[1].thickness = 6;
+  Notes notes;
+  try {
+    make_tissue(mosaic, spaced(0.2), [](const std::string&) { return 0.1; }, notes);
+    FAIL() << "no error";
+  } catch (const SceneError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("square 1,0 vanish when walls move in by radius + gap / 2 = 0.6 m; at most 0.5 m"));
+  }
+}
+
 TEST(Walls, refuse_a_spacing_that_no_machine_can_hold) {
   Notes notes;
   EXPECT_THROW(make_tissue(squares(2, 1), spaced(1e-12), 0.1, "cells", notes), SceneError);
@@ -227,7 +284,7 @@ TEST(Walls, between_the_same_two_cells_over_a_bend_are_one_wall) {
   Mosaic mosaic;  // a common wall with a kink at (1.1, 0.5)
   mosaic.vertices = {{0, 0}, {1, 0}, {1.1, 0.5}, {1, 1}, {0, 1}, {2, 0}, {2, 1}};
   mosaic.box = {Vec2::Zero(), Vec2(2, 1)};
-  mosaic.cells = {{{0, 1, 2, 3, 4}, {0, 0, 0, 0, 0}, "left"}, {{1, 5, 6, 3, 2}, {0, 0, 0, 0, 0}, "right"}};
+  mosaic.cells = {{{0, 1, 2, 3, 4}, {0, 0, 0, 0, 0}, "left", {}}, {{1, 5, 6, 3, 2}, {0, 0, 0, 0, 0}, "right", {}}};
   const Sample sample = make(mosaic, spaced(0.1), 0.02);
   EXPECT_THAT(check_sample(sample), IsEmpty());
   ASSERT_EQ(sample.walls.size(), 1u);

@@ -1,0 +1,241 @@
+#include "generator/packing/filling.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "generator/sample/errors.h"
+
+namespace lamella {
+namespace {
+
+// By how much disks are larger while they are pushed apart: the more, the sooner those of true size are; near jamming little
+// is left.
+constexpr double kClearances[] = {1e-3, 1e-4};
+
+double disk_area(const std::vector<double>& radii) {
+  return std::accumulate(radii.begin(), radii.end(), 0.0,
+                         [](double sum, double r) { return sum + std::numbers::pi * r * r; });
+}
+
+void scale_radii(SoftDisks& disks, double factor) {
+  for (double& radius : disks.radius) radius *= factor;
+}
+
+/// The size of the box, from what is given of it and the disks.
+Vec2 box_size(const std::vector<double>& radii, double fraction, const PackingSpace& space) {
+  if (space.domain) return space.domain->box.size();
+  const double area = disk_area(radii) / fraction;
+  if (space.width > 0 && space.height > 0) return {space.width, space.height};
+  if (space.width > 0) return {space.width, area / space.width};
+  if (space.height > 0) return {area / space.height, space.height};
+  return Vec2::Constant(std::sqrt(area));
+}
+
+void add_walls(SoftDisks& soft, const Domain& domain) {
+  for (const auto& loop : domain.loops)
+    for (std::size_t k = 0; k < loop.size(); ++k)
+      soft.walls.push_back({loop[k] - domain.box.lo, loop[(k + 1) % loop.size()] - domain.box.lo});
+}
+
+/// Draws places with a density in proportion to 1 / factor^2, which is constant on each cell of a raster.
+class Places {
+ public:
+  Places(const Filling& filling, Random& random) : filling_(filling), random_(random) {
+    if (!filling.factor) return;
+    sums_.reserve(kRaster * kRaster);
+    double sum = 0;
+    for (int cell = 0; cell < kRaster * kRaster; ++cell) {
+      const double factor = filling.factor_at(in_cell(cell, {0.5, 0.5}));
+      if (!(factor > 0) || !std::isfinite(factor))
+        throw SceneError(fmt::format("sample: the factor on the radii is {} in one place: must be positive", factor));
+      sums_.push_back(sum += 1 / (factor * factor));
+    }
+  }
+
+  Vec2 next() {
+    // Inside the domain by trial; its share of the box is never that small.
+    for (int trial = 0; trial < 1000000; ++trial) {
+      const Vec2 at(random_.unit(), random_.unit());
+      const Vec2 x = sums_.empty() ? Vec2(at.cwiseProduct(filling_.soft.size)) : in_cell(random_cell(), at);
+      if (filling_.contains(x)) return x;
+    }
+    throw SceneError("sample.domain: is too thin to be packed: it covers less than a millionth of its box");
+  }
+
+ private:
+  static constexpr int kRaster = 128;
+  Vec2 in_cell(int cell, const Vec2& at) const {
+    return (Vec2(cell % kRaster, cell / kRaster) + at).cwiseProduct(filling_.soft.size) / kRaster;
+  }
+  int random_cell() {
+    const auto found = std::upper_bound(sums_.begin(), sums_.end(), random_.unit() * sums_.back());
+    return static_cast<int>(std::min<std::ptrdiff_t>(found - sums_.begin(), kRaster * kRaster - 1));
+  }
+
+  const Filling& filling_;
+  Random& random_;
+  std::vector<double> sums_;
+};
+
+/// Between walls disks start inside; in a domain that is left to the relaxation.
+Vec2 off_sides(const SoftDisks& soft, Vec2 x, double radius) {
+  for (const int axis : {0, 1})
+    if (!soft.periodic[axis]) x[axis] = radius + x[axis] / soft.size[axis] * (soft.size[axis] - 2 * radius);
+  return x;
+}
+
+/// Radii as the places ask, at the fraction that they fill now or shall fill.
+void set_radii(Filling& filling, double fraction) {
+  SoftDisks& soft = filling.soft;
+  for (std::size_t i = 0; i < soft.x.size(); ++i) soft.radius[i] = filling.drawn[i] * filling.factor_at(soft.x[i]);
+  scale_radii(soft, std::sqrt(fraction / fraction_of(soft)));
+}
+
+/// Largest overlap over the sum of the two radii (to a wall: over the radius).
+double relative_overlap(SoftDisks disks) { return relax(disks, {.clearance = 0, .balance = 0, .steps = 1}).overlap; }
+
+/// The same disks in a new place each: a random step of up to `amplitude` mean radii, but not out of the domain.
+void shake(Filling& filling, double amplitude, Random& random) {
+  SoftDisks& soft = filling.soft;
+  const double mean =
+      std::accumulate(soft.radius.begin(), soft.radius.end(), 0.0) / static_cast<double>(soft.radius.size());
+  for (Vec2& x : soft.x) {
+    const Vec2 moved = x + amplitude * mean * Vec2(2 * random.unit() - 1, 2 * random.unit() - 1);
+    if (filling.contains(moved)) x = moved;
+  }
+}
+
+bool push_apart(SoftDisks& disks, const std::function<void(const Relaxation&)>& report) {
+  for (const double clearance : kClearances)
+    if (relax(disks, {.clearance = clearance, .balance = 1e-3, .steps = 20000}, report).end ==
+        RelaxationEnd::kSeparated)
+      return true;
+  return false;
+}
+
+}  // namespace
+
+double fraction_of(const SoftDisks& disks) { return disk_area(disks.radius) / disks.area; }
+
+Filling random_start(const std::vector<double>& radii, double fraction, const PackingSpace& space, Periodic periodic,
+                     Random& random) {
+  Filling filling{.soft = {.size = box_size(radii, fraction, space),
+                           .area = 0,
+                           .periodic = periodic,
+                           .walls = {},
+                           .x = {},
+                           .radius = radii},
+                  .drawn = radii,
+                  .domain = space.domain,
+                  .factor = space.factor};
+  SoftDisks& soft = filling.soft;
+  soft.area = space.domain ? space.domain->area : soft.size.x() * soft.size.y();
+  if (space.domain) add_walls(soft, *space.domain);
+  // A given box scales the radii; a box of their own leaves them to the last bit.
+  if (space.domain || (space.width > 0 && space.height > 0)) scale_radii(soft, std::sqrt(fraction / fraction_of(soft)));
+  Places places(filling, random);
+  for (std::size_t i = 0; i < radii.size(); ++i) soft.x.push_back(places.next());
+  if (filling.factor) set_radii(filling, fraction);
+  const double largest = *std::max_element(soft.radius.begin(), soft.radius.end());
+  if (2 * largest >= soft.size.minCoeff())
+    throw SceneError(
+        fmt::format("sample: the largest disk (diameter {:.4g} m) does not fit the box ({:.4g} x {:.4g} m): "
+                    "ask for more disks, a lower fraction or a wider box",
+                    2 * largest, soft.size.x(), soft.size.y()));
+  if (!space.domain)
+    for (std::size_t i = 0; i < radii.size(); ++i) soft.x[i] = off_sides(soft, soft.x[i], soft.radius[i]);
+  return filling;
+}
+
+double size_deviation(const Filling& filling) {
+  if (!filling.factor) return 0;
+  // The common scale is that of the areas, as in set_radii.
+  double asked = 0, deviation = 0;
+  const std::size_t n = filling.drawn.size();
+  std::vector<double> radius(n);
+  for (std::size_t i = 0; i < n; ++i)
+    asked += std::pow(radius[i] = filling.drawn[i] * filling.factor_at(filling.soft.x[i]), 2);
+  const double scale = std::sqrt(disk_area(filling.soft.radius) / (std::numbers::pi * asked));
+  for (std::size_t i = 0; i < n; ++i)
+    deviation = std::max(deviation, std::abs(filling.soft.radius[i] / (scale * radius[i]) - 1));
+  return deviation;
+}
+
+void follow_factor(Filling& filling, const PackingProgress& progress) {
+  constexpr int kRounds = 40;
+  const double fraction = fraction_of(filling.soft);
+  for (int round = 0; round < kRounds; ++round) {
+    const Relaxation state = relax(filling.soft, {.clearance = kClearances[0], .balance = 1e-3, .steps = 50});
+    const double deviation = size_deviation(filling);
+    if (progress) progress(0.3 * round / kRounds, fmt::format("packing: radii off their place's by {:.1e}", deviation));
+    if (state.end != RelaxationEnd::kOutOfSteps && deviation < 1e-3) return;
+    set_radii(filling, fraction);
+  }
+}
+
+void jam(SoftDisks& disks, double start, const PackingProgress& progress) {
+  scale_radii(disks, std::sqrt(start / fraction_of(disks)));
+  double fraction = start, jammed_fraction = start, jammed_pressure = 0;
+  double slope = 1;  // of the pressure; it is about 0.5 near jamming: the first steps are rather too small
+  for (int k = 0; k < 60; ++k) {
+    const Relaxation state = relax(disks, {.clearance = 0, .balance = 1e-3, .steps = 50000});
+    if (progress)
+      progress(std::min(0.99, k / 20.0),
+               fmt::format("jamming: fraction {:.6f}, pressure {:.1e}", fraction, state.pressure));
+    double next = (fraction + jammed_fraction) / 2;  // when they came apart
+    if (state.end != RelaxationEnd::kSeparated) {
+      if (state.pressure < 2e-7) break;
+      // The pressure vanishes about linearly in the fraction.
+      if (jammed_pressure > state.pressure && jammed_fraction > fraction)
+        slope = (jammed_pressure - state.pressure) / (jammed_fraction - fraction);
+      jammed_fraction = fraction, jammed_pressure = state.pressure;
+      next = fraction - 0.8 * state.pressure / slope;
+    } else if (jammed_fraction - fraction < 1e-6) {
+      break;
+    }
+    scale_radii(disks, std::sqrt(next / fraction));
+    fraction = next;
+  }
+  // What overlap is left, about a millionth, is taken off the radii.
+  scale_radii(disks, 1 - 1.01 * relative_overlap(disks) - 1e-12);
+}
+
+void separate(Filling& filling, Random& random, const PackingProgress& progress) {
+  SoftDisks& disks = filling.soft;
+  const double fraction = fraction_of(disks);
+  const std::vector<double> radius = disks.radius;
+  const auto report = [&](const Relaxation& state) {
+    // From overlaps of order 1 to the clearance, on a logarithmic scale.
+    const double done =
+        std::clamp(std::log(std::max(state.overlap, kClearances[0])) / std::log(kClearances[0]), 0.0, 1.0);
+    if (progress)
+      progress(done, fmt::format("packing: fraction {:.4f}, largest overlap {:.1e}", fraction, state.overlap));
+  };
+  // Few disks jam at fractions that scatter widely, and cost little.
+  const int trials = std::clamp(static_cast<int>(4000 / disks.x.size()), 2, 20);
+  double densest = 0;
+  for (int trial = 0; trial < 2 * trials; ++trial) {
+    if (trial < trials) {
+      if (push_apart(disks, report)) return;
+    } else {
+      jam(disks, std::max(1.05 * fraction, 0.9), progress);
+      const double jammed = fraction_of(disks);
+      densest = std::max(densest, jammed);
+      disks.radius = radius;
+      if (jammed > fraction) return;
+    }
+    shake(filling, trial % 2 == 0 ? 0.2 : 0.5, random);
+  }
+  throw SceneError(
+      fmt::format("sample.packing.fraction = {:.4g}: {} disks of these sizes jam at about {:.3f} in this {}; ask for "
+                  "less{}, or for "
+                  "more disks",
+                  fraction, disks.x.size(), densest, filling.domain ? "domain" : "box",
+                  filling.domain || (disks.periodic[0] && disks.periodic[1]) ? "" : ", for periodic boundaries"));
+}
+
+}  // namespace lamella

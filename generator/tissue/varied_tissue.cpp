@@ -1,0 +1,113 @@
+#include "generator/tissue/varied_tissue.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "generator/packing/domain.h"
+#include "generator/packing/packing.h"
+#include "generator/packing/stretch.h"
+#include "generator/packing/variation.h"
+#include "generator/packing/weld.h"
+#include "generator/sample/errors.h"
+#include "generator/tissue/domain_tissue.h"
+#include "generator/tissue/outlines.h"
+
+namespace lamella {
+namespace {
+
+/// Coincidences are decided at 1e-9 cell sizes: edges that they leave are shorter than this share of the mean wall.
+constexpr double kLeastWeld = 1e-6;
+
+/// The box of the scene, or of its domain.
+Domain asked_domain(const SampleScene& sample) {
+  if (sample.domain) return make_domain(*sample.domain);
+  if (!(sample.width > 0 && sample.height > 0))
+    throw SceneError("sample.stretch: needs width and height, or a domain: the box does not follow from the disks");
+  return make_domain(as_domain({Vec2::Zero(), {sample.width, sample.height}}));
+}
+
+void report_hidden(const Tessellation& tessellation, Notes& notes) {
+  if (tessellation.hidden.empty()) return;
+  std::vector<std::string> names;
+  for (const Index site : tessellation.hidden) names.push_back(fmt::format("site {}", site));
+  notes.push_back(fmt::format("{} sites have no cell: {}", names.size(), listed(names)));
+}
+
+void draw_out(DomainTissue& tissue, const Eigen::Matrix2d& map, const Box& box) {
+  for (Vec2& v : tissue.mosaic.vertices) v = map * v;
+  tissue.mosaic.box = box;
+}
+
+}  // namespace
+
+Mosaic make_domain_mosaic(const Scene& scene, Notes& notes, const TissueProgress& progress) {
+  const SampleScene& asked = scene.sample;
+  const Domain domain = asked_domain(asked);
+  const Eigen::Matrix2d map = asked.stretch ? stretch_map(*asked.stretch) : Eigen::Matrix2d::Identity();
+  Scene filled = scene;
+  if (asked.stretch) filled.sample.domain = squeezed(domain, map);
+  filled.sample.width = filled.sample.height = 0;
+  const Domain squeezed_domain = asked.stretch ? make_domain(*filled.sample.domain) : domain;
+  const PositionFactor factor = size_factor(asked, domain.box);
+  PositionFactor squeezed_factor;
+  if (factor) squeezed_factor = [&](const Vec2& p) { return factor(map * p); };
+  const Packing packing = make_packing(
+      filled,
+      [&](double done, const std::string& what) {
+        if (progress) progress(0.7 * done, what);
+      },
+      squeezed_factor);
+  notes.insert(notes.end(), packing.notes.begin(), packing.notes.end());
+  if (progress) progress(0.7, "tessellation");
+  LaguerreOptions options;
+  if (asked.packing.duplicates == "keep_first") options = {Duplicates::kKeepFirst, Hidden::kReport};
+  Tessellation tiles = tessellate(packing.disks, box_around(squeezed_domain.loops, packing.disks), options);
+  report_hidden(tiles, notes);
+  weld_short_edges(tiles, std::max(asked.walls.weld, 1e-9) * mean_edge_length(tiles));
+  DomainTissue tissue = clip_tiles(tiles, squeezed_domain.loops, options, notes);
+  draw_out(tissue, map, domain.box);
+  weld_short_edges(tissue, std::max(asked.walls.weld, kLeastWeld) * mean_wall_length(tissue), notes);
+  mark_outer_sides(tissue);
+  if (!packing.group.empty())
+    for (std::size_t c = 0; c < tissue.mosaic.cells.size(); ++c)
+      tissue.mosaic.cells[c].group = packing.group[tissue.site[c]];
+  return std::move(tissue.mosaic);
+}
+
+void vary_cells(Mosaic& mosaic, const SampleScene& scene, Notes& notes) {
+  PositionFactor thickness;
+  if (scene.gradient) thickness = gradient_factor(*scene.gradient, scene.gradient->thickness, "thickness", mosaic.box);
+  if (!thickness && scene.layers.empty()) return;
+  std::vector<Index> held(scene.layers.size(), 0);
+  for (MosaicCell& cell : mosaic.cells) {
+    const Vec2 centre = polygon_centre(polygon_of(mosaic, cell));
+    if (thickness) cell.thickness = thickness(centre);
+    const int layer = layer_at(scene.layers, mosaic.box, centre);
+    if (layer < 0) continue;
+    ++held[layer];
+    if (scene.layers[layer].group != "cells") cell.group = scene.layers[layer].group;
+  }
+  for (std::size_t k = 0; k < held.size(); ++k)
+    if (held[k] == 0)
+      notes.push_back(fmt::format("sample.layers: layer {} (group \"{}\") holds the centre of no cell: {}", k,
+                                  scene.layers[k].group,
+                                  k + 1 < held.size() ? "it lies elsewhere, is thinner than a cell, or later layers cover it"
+                                                      : "it lies elsewhere, or is thinner than a cell"));
+}
+
+void vary_links(Sample& sample, const SampleScene& scene) {
+  if (!sample.cell_thickness.empty()) sample.cell_thickness.resize(sample.cells(), 1);
+  if (!scene.gradient) return;
+  const PositionFactor strength =
+      gradient_factor(*scene.gradient, scene.gradient->strength, "strength", sample.box);
+  if (!strength) return;
+  for (std::size_t l = 0; l < sample.links.size(); ++l) {
+    Vec2 b = sample.x[sample.links[l].b];
+    if (!sample.link_image.empty()) b += displacement(sample.link_image[l], sample.box);
+    sample.link_strength.push_back(strength((sample.x[sample.links[l].a] + b) / 2));
+  }
+}
+
+}  // namespace lamella
