@@ -113,8 +113,8 @@ class WeightSearch {
     found_.weight = std::move(start);
     for (int trial = 0;; ++trial) {
       found_.cells = measure(found_.weight);
-      const auto empty = std::find_if(found_.cells.area.begin(), found_.cells.area.end(),
-                                      [](double area) { return !(area > 0); });
+      const auto empty =
+          std::find_if(found_.cells.area.begin(), found_.cells.area.end(), [](double area) { return !(area > 0); });
       if (empty == found_.cells.area.end()) break;
       if (trial == kTrials)
         throw SceneError(fmt::format(

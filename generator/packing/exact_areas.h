@@ -11,8 +11,7 @@ namespace lamella {
 
 /// Measures the cells of sites [m] with weights [m2]. A cell without area is absent. `length` of a wall makes the derivative right:
 /// dA_a/dw_b = -length / (2 |x_b - x_a|), and rows sum to zero, as a common shift of all weights changes nothing.
-using MeasureCells =
-    std::function<TileMeasures(const std::vector<Vec2>& centres, const std::vector<double>& weights)>;
+using MeasureCells = std::function<TileMeasures(const std::vector<Vec2>& centres, const std::vector<double>& weights)>;
 
 /// Which cells shall have which areas.
 struct AreaProblem {

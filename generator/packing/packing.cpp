@@ -10,6 +10,7 @@
 
 #include "generator/packing/packing_file.h"
 #include "generator/packing/random.h"
+#include "generator/packing/random_sites.h"
 #include "generator/packing/relaxation.h"
 #include "generator/packing/sizes.h"
 #include "generator/sample/errors.h"
@@ -244,20 +245,26 @@ Packing pack(const PackingScene& scene, const std::vector<double>& radii, double
 
 Packing make_packing(const Scene& scene, const PackingProgress& progress) {
   const SampleScene& sample = scene.sample;
+  const bool at_random = sample.areas && sample.areas->sites == "random";
   if (!sample.packing.file.empty()) {
     const Box box{Vec2::Zero(), {sample.width, sample.height}};
     const bool box_given = sample.width > 0 && sample.height > 0;
     Packing packing =
         read_packing(scene.resolve(sample.packing.file), box_given ? &box : nullptr, sample.packing.duplicates);
     packing.periodic = periodic_of(sample.packing);
+    if (at_random) {
+      scatter(packing, scene.seed);
+      return packing;
+    }
     // Allowed, as tiles only need powers; but somebody who believes to have a packing should know.
     if (const double overlap = largest_overlap(packing); overlap > 0)
       packing.notes.push_back(
           fmt::format("{}: disks overlap, or cross a wall, by up to {:.3g} m", sample.packing.file, overlap));
     return packing;
   }
-  return pack(sample.packing, draw_radii(sample.sizes, sample.packing.count, scene.seed, scene), sample.width,
-              sample.height, scene.seed, progress);
+  const std::vector<double> radii = draw_radii(sample.sizes, sample.packing.count, scene.seed, scene);
+  if (at_random) return scattered(sample.packing, radii, sample.width, sample.height, scene.seed);
+  return pack(sample.packing, radii, sample.width, sample.height, scene.seed, progress);
 }
 
 }  // namespace lamella
