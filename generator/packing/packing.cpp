@@ -10,6 +10,7 @@
 #include "generator/packing/filling.h"
 #include "generator/packing/packing_file.h"
 #include "generator/packing/random.h"
+#include "generator/packing/random_sites.h"
 #include "generator/packing/sizes.h"
 #include "generator/sample/errors.h"
 
@@ -111,12 +112,17 @@ Packing make_packing(const Scene& scene, const PackingProgress& progress, const 
   PackingScene packing_scene = sample.packing;
   if (sample.periodic != "none")
     packing_scene.boundary = sample.periodic == "xy" ? "periodic" : "periodic_" + sample.periodic;
+  const bool at_random = sample.areas && sample.areas->sites == "random";
   if (!sample.packing.file.empty()) {
     const Box box{Vec2::Zero(), {sample.width, sample.height}};
     const bool box_given = sample.width > 0 && sample.height > 0;
     Packing packing =
         read_packing(scene.resolve(sample.packing.file), box_given ? &box : nullptr, sample.packing.duplicates);
     packing.periodic = periodic_of(packing_scene);
+    if (at_random) {
+      scatter(packing, scene.seed);
+      return packing;
+    }
     // Allowed, as tiles only need powers; but somebody who believes to have a packing should know.
     if (const double overlap = largest_overlap(packing); overlap > 0)
       packing.notes.push_back(
@@ -124,11 +130,16 @@ Packing make_packing(const Scene& scene, const PackingProgress& progress, const 
     return packing;
   }
   Sizes sizes = draw_sizes(sample.sizes, packing_scene.count, scene.seed, scene);
+  if (at_random && factor)
+    throw SceneError(
+        "sample.areas.sites = \"random\": sizes depend on the place here, and only a packing knows which disk is where; leave "
+        "sites out, or the layers' and gradient's sizes");
   std::optional<Domain> domain;
   if (sample.domain) domain = make_domain(*sample.domain);
   const PackingSpace space{
       .width = sample.width, .height = sample.height, .domain = domain ? &*domain : nullptr, .factor = factor};
-  Packing packing = pack(packing_scene, sizes.radius, space, scene.seed, progress);
+  Packing packing = at_random ? scattered(packing_scene, sizes.radius, space, scene.seed)
+                              : pack(packing_scene, sizes.radius, space, scene.seed, progress);
   packing.group = std::move(sizes.group);
   return packing;
 }

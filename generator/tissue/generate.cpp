@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "generator/packing/laguerre.h"
 #include "generator/packing/packing.h"
@@ -13,6 +14,7 @@
 #include "generator/packing/weld.h"
 #include "generator/sample/errors.h"
 #include "generator/tissue/bricks.h"
+#include "generator/tissue/cell_areas.h"
 #include "generator/tissue/lattice.h"
 #include "generator/tissue/notch.h"
 #include "generator/tissue/polygon_file.h"
@@ -53,6 +55,20 @@ Sample make_tissue(Mosaic& mosaic, const Scene& scene, Notes& notes) {
   return make_tissue(mosaic, scene.sample.walls, radius, notes);
 }
 
+CellAreas make_cell_areas(const Packing& packing, const Scene& scene, Notes& notes, const Progress& progress) {
+  std::vector<double> distance;  // by which the inset moves each cell's wall [m]
+  for (std::size_t i = 0; i < packing.disks.size(); ++i) {
+    const std::string group = packing.group.empty() ? kGroup : packing.group[i];
+    distance.push_back(scene.stages.front().cell(group).outline_radius() + scene.sample.walls.gap / 2);
+  }
+  const std::string& along = scene.sample.periodic;
+  const Periodic periodic{along == "x" || along == "xy", along == "y" || along == "xy"};
+  return tessellate_with_areas(packing, *scene.sample.areas, periodic, distance, notes,
+                               [&](double done, const std::string& what) {
+                                 if (progress) progress(0.7 + 0.1 * done, what);
+                               });
+}
+
 Mosaic make_packed_mosaic(const Scene& scene, Notes& notes, const Progress& progress) {
   if (scene.sample.domain || scene.sample.stretch) return make_domain_mosaic(scene, notes, progress);
   const Packing packing = make_packing(
@@ -63,10 +79,13 @@ Mosaic make_packed_mosaic(const Scene& scene, Notes& notes, const Progress& prog
       size_factor(scene.sample, {Vec2::Zero(), {scene.sample.width, scene.sample.height}}));
   notes.insert(notes.end(), packing.notes.begin(), packing.notes.end());
   if (progress) progress(0.7, "tessellation");
-  Tessellation tessellation = tessellate(packing, scene.sample.packing, notes);
+  std::optional<CellAreas> exact;
+  if (scene.sample.areas) exact = make_cell_areas(packing, scene, notes, progress);
+  Tessellation tessellation = exact ? exact->tessellation : tessellate(packing, scene.sample.packing, notes);
   // Cocircular sites leave edges without length, which no wall can be made of: those are welded whatever is asked.
   const double share = std::max(scene.sample.walls.weld, 1e-9);
-  weld_short_edges(tessellation, share * mean_edge_length(tessellation), &notes);
+  const int welded = weld_short_edges(tessellation, share * mean_edge_length(tessellation), &notes);
+  if (exact) note_welded_areas(*exact, tessellation, welded, notes);
   Mosaic mosaic = mosaic_of(tessellation);
   if (!packing.group.empty())
     for (std::size_t c = 0; c < mosaic.cells.size(); ++c)

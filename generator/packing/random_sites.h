@@ -1,0 +1,17 @@
+// Sites at random: where nothing is known of the places, only of the sizes.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "generator/packing/packing.h"
+
+namespace lamella {
+
+/// Moves every disk of a packing to a place of its own in the box, uniformly at random: disks overlap then.
+void scatter(Packing& packing, std::uint64_t seed);
+
+/// Disks of these radii scattered over a box that they fill to packing.fraction, as `pack` has it for width and height.
+Packing scattered(const PackingScene& scene, const std::vector<double>& radii, double width, double height,
+                  std::uint64_t seed);
+
+}  // namespace lamella

@@ -1,0 +1,30 @@
+// The tessellation of a tissue whose cells have the areas that the scene asks for.
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "generator/generate.h"
+#include "generator/packing/laguerre.h"
+#include "generator/packing/packing.h"
+#include "generator/sample/scene.h"
+
+namespace lamella {
+
+/// Tiles of prescribed areas. What has the area is the tile, or what the inset leaves of it.
+struct CellAreas {
+  Tessellation tessellation;
+  std::vector<double> shares;    // per site, of the sum of all areas: in proportion to what was asked for
+  std::vector<double> distance;  // per site, of the inset [m]; empty: whole tiles
+};
+
+/// Tessellates with sites from the packing, weights solved for, and sweeps as asked. `distance`: per disk, by which walls
+/// move in. Notes say what was reached. Throws SceneError for what cannot be.
+CellAreas tessellate_with_areas(const Packing& packing, const AreasScene& scene, const Periodic& periodic,
+                                const std::vector<double>& distance, Notes& notes,
+                                const std::function<void(double done, const std::string& what)>& progress = {});
+
+/// Notes what welding, which comes last, has done to the areas.
+void note_welded_areas(const CellAreas& exact, const Tessellation& welded, int count, Notes& notes);
+
+}  // namespace lamella
