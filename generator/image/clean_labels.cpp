@@ -201,9 +201,7 @@ bool fill_holes(LabelImage& labels, Index cell, const Extent& extent, std::vecto
   const int width = extent.right - extent.left + 3;
   const int height = extent.bottom - extent.top + 3;
   std::vector<char> outside(static_cast<std::size_t>(width) * height, 0);
-  const auto is_cell = [&](int x, int y) {
-    return label_at(labels, x + extent.left - 1, y + extent.top - 1) == cell;
-  };
+  const auto is_cell = [&](int x, int y) { return label_at(labels, x + extent.left - 1, y + extent.top - 1) == cell; };
   std::vector<std::pair<int, int>> open{{0, 0}};
   outside[0] = 1;
   while (!open.empty()) {

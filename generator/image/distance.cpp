@@ -39,9 +39,9 @@ std::vector<Index> nearest_marked(const std::vector<char>& marked, int width, in
       while (!lowest.empty()) {
         const Parabola& top = lowest.back();
         // First pixel at which the fresh one is strictly lower.
-        const double crossing = static_cast<double>(fresh.column * fresh.column - top.column * top.column +
-                                                    fresh.square - top.square) /
-                                static_cast<double>(2 * (fresh.column - top.column));
+        const double crossing =
+            static_cast<double>(fresh.column * fresh.column - top.column * top.column + fresh.square - top.square) /
+            static_cast<double>(2 * (fresh.column - top.column));
         const double from = std::max(0.0, std::floor(crossing) + 1);
         if (from > top.from) {
           fresh.from = from < width ? static_cast<int>(from) : width;

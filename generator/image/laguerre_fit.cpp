@@ -63,9 +63,8 @@ Measures measure(const LabelImage& labels) {
   }
   for (const auto& [key, sum] : sides)
     m.walls.push_back({static_cast<Index>(key >> 32), static_cast<Index>(key & 0xffffffff), sum});
-  std::sort(m.walls.begin(), m.walls.end(), [](const PixelWall& p, const PixelWall& q) {
-    return std::tie(p.a, p.b) < std::tie(q.a, q.b);
-  });
+  std::sort(m.walls.begin(), m.walls.end(),
+            [](const PixelWall& p, const PixelWall& q) { return std::tie(p.a, p.b) < std::tie(q.a, q.b); });
   return m;
 }
 
@@ -87,8 +86,8 @@ double half_square(const Measures& m, const VectorXd& u, VectorXd* gradient,
     const Vector3d slope = force - energy * e;
     gradient->segment<3>(3 * wall.a) += slope;
     gradient->segment<3>(3 * wall.b) -= slope;
-    const Matrix3d block = wall.sides / (4 * square) - force * e.transpose() - e * force.transpose() +
-                           energy * e * e.transpose();
+    const Matrix3d block =
+        wall.sides / (4 * square) - force * e.transpose() - e * force.transpose() + energy * e * e.transpose();
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) {
         const auto add = [&](Index p, Index q, double value) {

@@ -95,10 +95,9 @@ LabelImage basins(const std::vector<std::int64_t>& square, int width, int height
   return labels;
 }
 
-/// Across the middle of a wall the distances to the cells on both sides sum to its thickness: of n pixels between two
-/// cells the k-th is k and n + 1 - k pixels from them. The median of such sums along a wall forgets its ends, where
-/// walls meet.
-void measure_walls(const LabelImage& grown, const std::vector<std::int64_t>& to_cell, Segmentation& result) {
+/// One quantile of the thickness along each wall. Across the middle of a wall the distances to the cells on both sides
+/// sum to its thickness: of n pixels between two cells the k-th is k and n + 1 - k pixels from them.
+std::vector<double> thicknesses(const LabelImage& grown, const std::vector<std::int64_t>& to_cell, double quantile) {
   std::map<std::pair<Index, Index>, std::vector<double>> across;
   const auto meet = [&](std::size_t p, std::size_t q) {
     const Index a = grown.cell[p], b = grown.cell[q];
@@ -111,18 +110,31 @@ void measure_walls(const LabelImage& grown, const std::vector<std::int64_t>& to_
       if (x > 0) meet(grown.at(x - 1, y), grown.at(x, y));
       if (y > 0) meet(grown.at(x, y - 1), grown.at(x, y));
     }
-  double sum = 0, squares = 0;
+  std::vector<double> result;
   for (auto& [wall, widths] : across) {
     if (widths.size() < 4) continue;
-    const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
-    std::nth_element(widths.begin(), middle, widths.end());
-    ++result.walls;
-    sum += *middle;
-    squares += *middle * *middle;
+    const auto at = widths.begin() + static_cast<std::ptrdiff_t>(quantile * static_cast<double>(widths.size()));
+    std::nth_element(widths.begin(), at, widths.end());
+    result.push_back(*at);
   }
-  if (result.walls == 0) return;
-  result.thickness = sum / result.walls;
-  result.deviation = std::sqrt(std::max(0.0, squares / result.walls - result.thickness * result.thickness));
+  return result;
+}
+
+/// Median along each wall, which forgets its ends, where walls meet; then mean and deviation over walls.
+void measure_walls(const LabelImage& grown, const std::vector<std::int64_t>& to_cell, Segmentation& result) {
+  const auto medians = thicknesses(grown, to_cell, 0.5);
+  result.walls = static_cast<int>(medians.size());
+  if (medians.empty()) return;
+  double squares = 0;
+  for (const double t : medians) result.thickness += t / result.walls;
+  for (const double t : medians) squares += (t - result.thickness) * (t - result.thickness);
+  result.deviation = std::sqrt(squares / result.walls);
+}
+
+/// Thickness up to which dark places are walls: a first guess that places between cells that are far apart do not spoil.
+double thin(const LabelImage& grown, const std::vector<std::int64_t>& to_cell) {
+  const auto least = thicknesses(grown, to_cell, 0.1);
+  return least.empty() ? 0 : 3 * std::accumulate(least.begin(), least.end(), 0.0) / static_cast<double>(least.size());
 }
 
 std::vector<std::int64_t> squares_to(const std::vector<char>& marked, int width, int height,
@@ -133,6 +145,10 @@ std::vector<std::int64_t> squares_to(const std::vector<char>& marked, int width,
   for (std::size_t k = 0; k < square.size(); ++k)
     square[k] = nearest[k] < 0 ? far : square_distance(static_cast<Index>(k), nearest[k], width);
   return square;
+}
+
+void flip(std::vector<char>& mask) {
+  for (char& m : mask) m = static_cast<char>(!m);
 }
 
 /// Gives the connected parts of `mask` that have fewer pixels to its complement.
@@ -174,28 +190,33 @@ Segmentation segment(const Picture& picture, const Segmenting& how) {
   std::vector<float> value(picture.pixels());
   for (std::size_t k = 0; k < value.size(); ++k)
     value[k] = static_cast<float>(static_cast<double>(picture.value[k]) / picture.white);
+  const std::vector<float> unblurred = how.smoothing > 0 ? value : std::vector<float>();
   if (how.smoothing > 0)
     value = blurred_rows(blurred_rows(value, width, height, how.smoothing), height, width, how.smoothing);
   Segmentation result;
   result.threshold = how.threshold ? *how.threshold : otsu_threshold(value);
-  std::vector<char> wall(value.size()), cell(value.size());
-  const auto complement = [](const std::vector<char>& of, std::vector<char>& mask) {
-    std::transform(of.begin(), of.end(), mask.begin(), [](char c) { return static_cast<char>(!c); });
+  const auto wall_mask = [&](const std::vector<float>& grey) {
+    std::vector<char> wall(grey.size());
+    for (std::size_t k = 0; k < grey.size(); ++k) wall[k] = (grey[k] < result.threshold) == how.dark_walls;
+    drop_specks(wall, width, height, how.least_area);
+    flip(wall);
+    drop_specks(wall, width, height, how.least_area);
+    flip(wall);
+    return wall;
   };
-  for (std::size_t k = 0; k < value.size(); ++k) wall[k] = (value[k] < result.threshold) == how.dark_walls;
-  drop_specks(wall, width, height, how.least_area);
-  complement(wall, cell);
-  drop_specks(cell, width, height, how.least_area);
-  complement(cell, wall);
+  std::vector<char> wall = wall_mask(value);
   std::vector<Index> nearest;
   result.labels = basins(squares_to(wall, width, height, nearest), width, height);
   if (result.labels.number.empty()) return result;
-  const auto to_cell = squares_to(cell, width, height, nearest);
+  flip(wall);
+  const auto to_cell = squares_to(wall, width, height, nearest);
   LabelImage grown = result.labels;
   for (std::size_t k = 0; k < grown.pixels(); ++k) grown.cell[k] = result.labels.cell[nearest[k]];
-  measure_walls(grown, to_cell, result);
-  const int widest = std::max(4, static_cast<int>(std::ceil(3 * result.thickness)) + 1);
-  close_gaps(result.labels, widest);
+  close_gaps(result.labels, std::max(4, static_cast<int>(std::ceil(thin(grown, to_cell))) + 1));
+  // The blur makes thin walls thicker, so they are measured without it, where they are not background.
+  std::vector<char> sharp = how.smoothing > 0 ? wall_mask(unblurred) : wall;
+  if (how.smoothing > 0) flip(sharp);
+  measure_walls(result.labels, squares_to(sharp, width, height, nearest), result);
   return result;
 }
 

@@ -9,14 +9,14 @@ namespace lamella {
 struct Segmenting {
   bool dark_walls = true;
   std::optional<double> threshold = std::nullopt;  // 0 to 1; absent: Otsu's
-  double smoothing = 1;             // standard deviation of the blur [pixels]
-  int least_area = 20;              // smaller specks, of walls in cells or the other way round, are none [pixels]
+  double smoothing = 1;                            // standard deviation of the blur [pixels]
+  int least_area = 20;  // smaller specks, of walls in cells or the other way round, are none [pixels]
 };
 
 struct Segmentation {
   LabelImage labels;     // numbers from 1, in the order of their first pixels
   double threshold = 0;  // that was used [1]
-  // Thickness of the walls between two cells, by the threshold [pixels]: mean and standard deviation over walls.
+  // Thickness of the walls between two cells, by the threshold, before the blur [pixels]: mean and standard deviation.
   int walls = 0;  // measured; 0: none
   double thickness = 0, deviation = 0;
 };

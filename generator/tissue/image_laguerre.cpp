@@ -49,9 +49,10 @@ namespace {
 
 void note_fit(const LaguerreFit& fit, const Tessellation& tessellation, const LabelImage& labels, Index cells,
               Notes& notes) {
-  notes.push_back(fmt::format("the closest Laguerre tessellation: {:.2f} % of the pixels lie in the tile of their cell; "
-                              "walls are {:.2g} pixels from the boundary of the pixels (root mean square)",
-                              100 * agreement(tessellation, labels, cells), fit.rms));
+  notes.push_back(
+      fmt::format("the closest Laguerre tessellation: {:.2f} % of the pixels lie in the tile of their cell; "
+                  "walls are {:.2g} pixels from the boundary of the pixels (root mean square)",
+                  100 * agreement(tessellation, labels, cells), fit.rms));
   std::vector<std::string> lost;
   for (const Index site : tessellation.hidden)
     if (site < cells) lost.push_back(fmt::format("label {}", labels.number[site]));

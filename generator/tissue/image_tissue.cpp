@@ -7,6 +7,7 @@
 
 #include "generator/image/boundaries.h"
 #include "generator/image/labels.h"
+#include "generator/image/regions.h"
 #include "generator/image/segment.h"
 #include "generator/sample/errors.h"
 #include "generator/tissue/image_laguerre.h"
@@ -28,9 +29,10 @@ std::string listed_labels(const std::vector<std::uint32_t>& numbers) {
 
 void note(const Cleaning& done, Notes& notes) {
   if (!done.scattered.empty())
-    notes.push_back(fmt::format("{} cells are in several pieces: the largest stays, {} others are joined to what they "
-                                "touch most: {}",
-                                done.scattered.size(), done.pieces, listed_labels(done.scattered)));
+    notes.push_back(
+        fmt::format("{} cells are in several pieces: the largest stays, {} others are joined to what they "
+                    "touch most: {}",
+                    done.scattered.size(), done.pieces, listed_labels(done.scattered)));
   if (!done.small.empty())
     notes.push_back(fmt::format("{} cells are smaller than least_area and joined to what they touch most: {}",
                                 done.small.size(), listed_labels(done.small)));
@@ -38,8 +40,8 @@ void note(const Cleaning& done, Notes& notes) {
     notes.push_back(fmt::format("{} places without cell are smaller than least_area and joined to what they touch most",
                                 done.small_gaps));
   if (!done.filled.empty())
-    notes.push_back(fmt::format("{} cells have holes, which are filled: {}", done.filled.size(),
-                                listed_labels(done.filled)));
+    notes.push_back(
+        fmt::format("{} cells have holes, which are filled: {}", done.filled.size(), listed_labels(done.filled)));
   if (!done.enclosed.empty())
     notes.push_back(fmt::format("{} cells lie inside another and are part of it now: {}", done.enclosed.size(),
                                 listed_labels(done.enclosed)));
@@ -47,22 +49,46 @@ void note(const Cleaning& done, Notes& notes) {
     notes.push_back(fmt::format("{} corners at which a cell touches itself are opened", done.pinches));
 }
 
+/// A micrograph that is read as labels, or labels that a lossy format has spoilt, have pieces of one label everywhere.
+void refuse_scattered(const LabelImage& labels, const std::string& file) {
+  const Regions regions = regions_of(labels);
+  std::vector<Index> largest(labels.number.size(), 0);
+  double all = 0, kept = 0;
+  std::size_t pieces = 0;
+  for (std::size_t r = 0; r < regions.cell.size(); ++r) {
+    if (regions.cell[r] == kBackground) continue;
+    ++pieces;
+    all += regions.area[r];
+    largest[regions.cell[r]] = std::max(largest[regions.cell[r]], regions.area[r]);
+  }
+  for (const Index area : largest) kept += area;
+  if (kept < all / 2)
+    throw SceneError(
+        fmt::format("{}: {} numbers are in {} pieces, the largest of which hold {:.0f} % of the pixels: "
+                    "these are no cells; for a micrograph give sample.image.kind = \"grey\"",
+                    file, labels.number.size(), pieces, 100 * kept / all));
+}
+
 LabelImage read_labels(const ImageScene& image, const std::string& file, const Picture& picture, Notes& notes) {
   bool pieces = false;
   LabelImage labels = labels_of(picture, static_cast<std::uint32_t>(image.background), pieces);
   if (labels.number.empty())
-    throw SceneError(fmt::format("{}: no cells: all pixels are {}, the background; give sample.image.background the "
-                                 "number of what is no cell",
-                                 file, image.background));
+    throw SceneError(
+        fmt::format("{}: no cells: all pixels are {}, the background; give sample.image.background the "
+                    "number of what is no cell",
+                    file, image.background));
   if (pieces)
-    notes.push_back(fmt::format("the picture holds one number beside the background: each of its {} connected pieces "
-                                "is a cell",
-                                labels.number.size()));
+    notes.push_back(
+        fmt::format("the picture holds one number beside the background: each of its {} connected pieces "
+                    "is a cell",
+                    labels.number.size()));
+  refuse_scattered(labels, file);
   const std::size_t closed = close_gaps(labels, kThinGap);
   if (closed > 0)
-    notes.push_back(fmt::format("{} pixels of background, in gaps that no square of {} pixels fits into, are given to "
-                                "the nearest cells",
-                                closed, kThinGap));
+    notes.push_back(
+        fmt::format("{} pixels of background, in gaps that no square of {} pixels fits into, are given to "
+                    "the nearest cells",
+                    closed, kThinGap));
   return labels;
 }
 
@@ -80,9 +106,10 @@ LabelImage find_cells(const ImageScene& image, const std::string& file, const Pi
   notes.push_back(fmt::format("walls are {} than {:.3g} of white{}", how.dark_walls ? "darker" : "brighter",
                               found.threshold, image.threshold ? "" : " (Otsu's threshold)"));
   if (found.walls > 0)
-    notes.push_back(fmt::format("{} walls are {:.3g} +- {:.2g} pixels thick (mean, standard deviation): for [cells] "
-                                "thickness, {:.3g} m if a cell's wall is half of the wall between two cells",
-                                found.walls, found.thickness, found.deviation, found.thickness * image.pixel / 2));
+    notes.push_back(
+        fmt::format("{} walls are {:.2f} +- {:.2f} pixels thick (mean, standard deviation): for [cells] "
+                    "thickness, {:.3g} m if a cell's wall is half of the wall between two cells",
+                    found.walls, found.thickness, found.deviation, found.thickness * image.pixel / 2));
   return std::move(found.labels);
 }
 
@@ -126,6 +153,16 @@ void mark_untouched_sides(Mosaic& mosaic) {
     }
 }
 
+/// Sides; and names that can be found in the picture.
+void finish(Mosaic& mosaic, double pixel) {
+  mark_untouched_sides(mosaic);
+  for (MosaicCell& cell : mosaic.cells) {
+    const Vec2 centre = polygon_centre(polygon_of(mosaic, cell));
+    cell.name += fmt::format(" (about pixel {:.0f}, {:.0f})", std::floor(centre.x() / pixel),
+                             std::floor((mosaic.box.hi.y() - centre.y()) / pixel));
+  }
+}
+
 Mosaic mosaic_of(const SimplifiedWalls& walls, const LabelImage& labels, double pixel) {
   Mosaic mosaic;
   mosaic.box = {Vec2::Zero(), pixel * Vec2(labels.width, labels.height)};
@@ -159,8 +196,8 @@ Mosaic make_image_mosaic(const Scene& scene, Notes& notes, const ImageProgress& 
   tell(0, "picture");
   const Picture picture = read_picture(path, grey ? Colours::kToGrey : Colours::kRefuse);
   tell(0.2, grey ? "segmentation" : "labels");
-  LabelImage labels = grey ? find_cells(image, path.string(), picture, notes)
-                           : read_labels(image, path.string(), picture, notes);
+  LabelImage labels =
+      grey ? find_cells(image, path.string(), picture, notes) : read_labels(image, path.string(), picture, notes);
   tell(0.5, "cells");
   note(clean_labels(labels, image.least_area), notes);
   if (labels.number.empty())
@@ -170,16 +207,17 @@ Mosaic make_image_mosaic(const Scene& scene, Notes& notes, const ImageProgress& 
   if (image.cells == "laguerre") {
     mosaic = make_laguerre_mosaic(labels, image.pixel, scene.sample.walls.weld, notes,
                                   [&](double done) { tell(0.6 + 0.4 * done, "Laguerre tessellation"); });
-    mark_untouched_sides(mosaic);
+    finish(mosaic, image.pixel);
     return mosaic;
   }
   tell(0.7, "boundaries");
   const SimplifiedWalls walls = simplify_walls(trace_boundaries(labels), image.simplify, scene.sample.walls.weld);
-  notes.push_back(fmt::format("{} x {} pixels: {} cells; {} short walls are welded to a point, {} walls keep more of "
-                              "their pixels than simplify asks, so that cells do not overlap",
-                              labels.width, labels.height, labels.number.size(), walls.welded, walls.refined));
+  notes.push_back(
+      fmt::format("{} x {} pixels: {} cells; {} short walls are welded to a point, {} walls keep more of "
+                  "their pixels than simplify asks, so that cells do not overlap",
+                  labels.width, labels.height, labels.number.size(), walls.welded, walls.refined));
   mosaic = mosaic_of(walls, labels, image.pixel);
-  mark_untouched_sides(mosaic);
+  finish(mosaic, image.pixel);
   return mosaic;
 }
 

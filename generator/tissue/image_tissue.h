@@ -19,7 +19,8 @@ bool has_narrow_cells(const Mosaic& mosaic, const Scene& scene);
 
 /// What helps where cells of a picture are too narrow for their walls.
 inline constexpr const char* kNarrowCellsOfPictures =
-    "sample.image: cells of a picture may be narrow anywhere; a larger simplify makes them smoother, a larger least_area "
+    "sample.image: cells of a picture may be narrow anywhere; a larger simplify makes them smoother, a larger "
+    "least_area "
     "joins the smallest, cells = \"laguerre\" makes all of them convex";
 
 }  // namespace lamella

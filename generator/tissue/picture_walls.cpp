@@ -86,9 +86,7 @@ struct Edge {
   Index wall = 0;
 };
 
-bool is_on(const Lattice& p, const Edge& e) {
-  return turn(e.from, e.to, p) == 0 && dot(p, e.from, e.to) <= 0;
-}
+bool is_on(const Lattice& p, const Edge& e) { return turn(e.from, e.to, p) == 0 && dot(p, e.from, e.to) <= 0; }
 
 /// Whether x lies strictly within the angle at v that opens from a counter-clockwise to b, to the eye: y counts downwards.
 bool is_between(const Lattice& v, const Lattice& a, const Lattice& b, const Lattice& x) {

@@ -97,8 +97,8 @@ void expect_sound(const SimplifiedWalls& walls) {
       const auto other = left_of_edge.find({to, from});
       EXPECT_EQ(other == left_of_edge.end() ? -1 : other->second, std::max<Index>(-1, cell.beyond[k]));
       if (other == left_of_edge.end() || from < to)
-        segments.push_back({Vec2(walls.vertices[from].x, walls.vertices[from].y),
-                            Vec2(walls.vertices[to].x, walls.vertices[to].y)});
+        segments.push_back(
+            {Vec2(walls.vertices[from].x, walls.vertices[from].y), Vec2(walls.vertices[to].x, walls.vertices[to].y)});
     }
   }
   EXPECT_TRUE(find_crossings(segments).empty());
@@ -251,7 +251,7 @@ TEST(Walls, that_are_welded_at_a_side_of_the_picture_stay_on_it) {
   const LabelImage labels = clean(picture_of(40, 30, [](int x, int y) {
     return std::abs(x - 20 + 0.5) < 1 + y / 2.0 ? 2u : x < 20 ? 1u : 3u;
   }));
-  const SimplifiedWalls walls = simplify_walls(trace_boundaries(labels), 1, 0.3);
+  const SimplifiedWalls walls = simplify_walls(trace_boundaries(labels), 1, 0.1);
   EXPECT_EQ(walls.welded, 1);
   expect_sound(walls);
   double area = 0;

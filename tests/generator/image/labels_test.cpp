@@ -64,7 +64,9 @@ TEST(NearestMarked, is_as_near_as_any_by_brute_force) {
 TEST(Labels, are_cells_in_ascending_order_and_the_background_is_none) {
   bool pieces = true;
   const LabelImage labels =
-      labels_of(picture_of(3, 2, [](int x, int y) { return x == 0 ? 7u : y == 0 ? 4000000000u : 3u; }), 3, pieces);
+      labels_of(picture_of(3, 2, [](int x, int y) { return x == 0   ? 7u
+                                                           : y == 0 ? 4000000000u
+                                                                    : 3u; }), 3, pieces);
   EXPECT_FALSE(pieces);
   EXPECT_THAT(labels.number, ElementsAre(7u, 4000000000u));
   EXPECT_THAT(labels.cell, ElementsAre(0, 1, 1, 0, kBackground, kBackground));
@@ -103,9 +105,8 @@ TEST(Gaps, are_closed_where_no_square_fits_by_brute_force) {
   for (int repeat = 0; repeat < 30; ++repeat) {
     const int width = 30, height = 20, side = 2 + repeat % 3;
     std::bernoulli_distribution speck(0.06);
-    const LabelImage before = labels_of(picture_of(width, height, [&](int x, int) {
-      return speck(random) ? 1u + static_cast<unsigned>(x) : 0u;
-    }));
+    const LabelImage before = labels_of(
+        picture_of(width, height, [&](int x, int) { return speck(random) ? 1u + static_cast<unsigned>(x) : 0u; }));
     LabelImage after = before;
     const std::size_t given = close_gaps(after, side);
     std::size_t expected = 0;
@@ -150,12 +151,12 @@ TEST(Cleaning, joins_pieces_to_what_they_touch_most_and_keeps_the_largest) {
 
 TEST(Cleaning, joins_small_cells_to_the_neighbour_with_the_longest_common_boundary) {
   Cleaning done;
-  EXPECT_THAT(cleaned({"1111222",  //
+  EXPECT_THAT(cleaned({"1112222",  //
                        "1113322",  //
                        "1114322",  //
                        "1111222"},
                       4, &done),
-              ElementsAre("1111222", "1112222", "1112222", "1111222"));
+              ElementsAre("1112222", "1112222", "1111222", "1111222"));
   // 4 (one pixel) has two sides with 1 (left, below), one with 3 above, one with 3 on its right: by number, 1.
   EXPECT_THAT(done.small, ElementsAre(4u, 3u));
 }
@@ -177,13 +178,13 @@ TEST(Cleaning, fills_holes_and_takes_in_what_lies_there) {
                        "1111113"},
                       1, &done),
               ElementsAre("1111113", "1111113", "1111113", "1111113", "1111113"));
-  EXPECT_THAT(done.filled, ElementsAre(1u, 2u));
+  EXPECT_THAT(done.filled, ElementsAre(1u));
   EXPECT_THAT(done.enclosed, ElementsAre(2u));
 }
 
 TEST(Cleaning, refuses_a_cell_around_more_than_itself) {
   try {
-    cleaned({"1111111", "1223341", "1223341", "1223341", "1111111"}, 1);
+    cleaned({"11111111", "12223341", "12223341", "12223341", "12223341", "12223341", "11111111"}, 1);
     FAIL();
   } catch (const SceneError& error) {
     EXPECT_THAT(error.what(), HasSubstr("label 1 encloses 3 cells"));
@@ -197,7 +198,7 @@ TEST(Cleaning, opens_corners_at_which_a_cell_touches_itself) {
                                "13331",  //
                                "13331",  //
                                "13312",  //
-                               "11122",  //
+                               "11112",  //
                                "22222"},
                               1, &done);
   EXPECT_EQ(done.pinches, 1u);
@@ -254,10 +255,12 @@ TEST(Cleaning, makes_proper_cells_of_noise) {
 }
 
 TEST(Cleaning, changes_nothing_where_nothing_is_wrong) {
-  LabelImage labels = labels_of(tessellated(90, 70, random_disks(12, 90, 70, 6, 3)));
+  std::vector<Disk> disks = random_disks(12, 14, 14, 6, 3);
+  for (int k = 0; k < 12; ++k) disks[k].centre += 25 * Vec2(k % 4, k / 4);
+  LabelImage labels = labels_of(tessellated(90, 70, disks));
   const LabelImage before = labels;
   const Cleaning done = clean_labels(labels, 1);
-  if (!done.scattered.empty() || !done.filled.empty()) GTEST_SKIP() << "slivers";
+  EXPECT_THAT(done.scattered, IsEmpty());
   EXPECT_EQ(labels.cell, before.cell);
   EXPECT_EQ(labels.number, before.number);
 }

@@ -32,7 +32,8 @@ double share_of(const std::vector<Disk>& disks, const LabelImage& labels) {
   std::size_t agreeing = 0;
   for (int y = 0; y < labels.height; ++y)
     for (int x = 0; x < labels.width; ++x)
-      agreeing += static_cast<Index>(nearest(disks, {x + 0.5, labels.height - y - 0.5})) == labels.cell[labels.at(x, y)];
+      agreeing +=
+          static_cast<Index>(nearest(disks, {x + 0.5, labels.height - y - 0.5})) == labels.cell[labels.at(x, y)];
   return static_cast<double>(agreeing) / static_cast<double>(labels.pixels());
 }
 
@@ -45,8 +46,7 @@ TEST(LaguerreFit, recovers_a_tessellation_from_its_picture) {
     EXPECT_GT(labels.number.size(), 80u);
     EXPECT_GT(share_of(fit.disks, labels), 0.995);
     EXPECT_LT(fit.rms, 0.5);
-    for (const Disk& disk : fit.disks)
-      EXPECT_TRUE((Box{Vec2::Zero(), Vec2(size, size)}).contains(disk.centre));
+    for (const Disk& disk : fit.disks) EXPECT_TRUE((Box{Vec2::Zero(), Vec2(size, size)}).contains(disk.centre));
   }
 }
 

@@ -24,7 +24,8 @@ class Pictures : public ::testing::Test {
     std::mt19937 random(7);
     const std::uint32_t white = bits == 32 ? 0xffffffffu : (1u << bits) - 1;
     std::uniform_int_distribution<std::uint32_t> value(0, white);
-    Picture picture = picture_of(width, height, [&](int, int) { return value(random); }, white);
+    Picture picture = picture_of(
+        width, height, [&](int, int) { return value(random); }, white);
     picture.value[0] = white;
     picture.value[1] = 0;
     return picture;

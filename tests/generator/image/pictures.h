@@ -31,10 +31,11 @@ inline Picture picture_of(int width, int height, const std::function<std::uint32
 
 /// One character a pixel, rows from the top: `.` is background (0), digits and letters are the numbers 1 to 35.
 inline Picture drawn(const std::vector<std::string>& rows) {
-  return picture_of(static_cast<int>(rows[0].size()), static_cast<int>(rows.size()), [&](int x, int y) -> std::uint32_t {
-    const char c = rows[y][x];
-    return c == '.' ? 0 : c <= '9' ? c - '0' : c - 'a' + 10;
-  });
+  return picture_of(static_cast<int>(rows[0].size()), static_cast<int>(rows.size()),
+                    [&](int x, int y) -> std::uint32_t {
+                      const char c = rows[y][x];
+                      return c == '.' ? 0 : c <= '9' ? c - '0' : c - 'a' + 10;
+                    });
 }
 
 inline LabelImage labels_of(const Picture& picture) {
@@ -133,7 +134,8 @@ inline void write_png(const std::filesystem::path& path, const Picture& picture,
                form.type, form.interlaced ? PNG_INTERLACE_ADAM7 : PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                PNG_FILTER_TYPE_DEFAULT);
   std::vector<png_color> palette(256);
-  for (int k = 0; k < 256; ++k) palette[k] = {static_cast<png_byte>(k), static_cast<png_byte>(k), static_cast<png_byte>(k)};
+  for (int k = 0; k < 256; ++k)
+    palette[k] = {static_cast<png_byte>(k), static_cast<png_byte>(k), static_cast<png_byte>(k)};
   if (form.type == PNG_COLOR_TYPE_PALETTE) png_set_PLTE(png, info, palette.data(), 256);
   png_write_info(png, info);
   if (form.bits < 8) png_set_packing(png);

@@ -16,7 +16,9 @@ namespace {
 
 double noise(std::mt19937& random, double deviation) { return std::normal_distribution<double>(0, deviation)(random); }
 
-std::uint32_t grey(double brightness) { return static_cast<std::uint32_t>(std::clamp(brightness, 0.0, 1.0) * 255 + 0.5); }
+std::uint32_t grey(double brightness) {
+  return static_cast<std::uint32_t>(std::clamp(brightness, 0.0, 1.0) * 255 + 0.5);
+}
 
 /// Distance of a point from the nearest wall of a brick pattern, and the number of its brick.
 struct Brick {
@@ -58,7 +60,8 @@ TEST(Otsu, is_the_least_variance_within_by_brute_force) {
   std::mt19937 random(9);
   std::vector<float> value;
   for (int k = 0; k < 3000; ++k)
-    value.push_back(static_cast<float>(std::clamp(k % 4 == 0 ? 0.3 + noise(random, 0.1) : 0.7 + noise(random, 0.07), 0.0, 0.999)));
+    value.push_back(
+        static_cast<float>(std::clamp(k % 4 == 0 ? 0.3 + noise(random, 0.1) : 0.7 + noise(random, 0.07), 0.0, 0.999)));
   const auto within = [&](double threshold) {
     double sum[2] = {0, 0}, square[2] = {0, 0}, count[2] = {0, 0};
     for (const float v : value) {
