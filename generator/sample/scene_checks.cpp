@@ -97,6 +97,21 @@ void check_hole(const Value& table, const std::string& path, const HoleScene& ho
   for (const char* key : {"centre", "radius"}) require(table, path, key, "a hole is circular, or has points", faults);
 }
 
+namespace {
+
+void check_image(const Value& table, const ImageScene& image, Faults& faults) {
+  const auto belongs = [&](const char* key, const char* of, const std::string& asked, const char* wanted) {
+    if (has(table, key) && asked != wanted)
+      add_at(table, "sample.image", key,
+             fmt::format("belongs to {} = \"{}\", not to \"{}\"; remove it", of, wanted, asked), faults);
+  };
+  for (const char* key : {"threshold", "smoothing", "walls"}) belongs(key, "kind", image.kind, "grey");
+  belongs("background", "kind", image.kind, "labels");
+  belongs("simplify", "cells", image.cells, "outlines");
+}
+
+}  // namespace
+
 void check_sample_section(const Value& table, const SampleScene& sample, Faults& faults) {
   const std::string path = "sample";
   const std::string& kind = sample.kind;
@@ -122,7 +137,12 @@ void check_sample_section(const Value& table, const SampleScene& sample, Faults&
     for (const char* key : {"columns", "rows", "side"}) require(table, path, key, "a honeycomb needs it", faults);
   if (kind == "bricks")
     for (const char* key : {"columns", "rows", "brick"}) require(table, path, key, "a brick wall needs it", faults);
-  if (kind == "image") require(table, path, "image", "the picture, such as image = { file = \"labels.png\" }", faults);
+  if (kind == "image") {
+    require(table, path, "image", "the picture, such as image = { file = \"labels.png\", pixel = \"0.5 um\" }", faults);
+    if (has(table, "width"))
+      add_at(table, path, "width", "contradicts the picture, which is the box; give image.pixel instead", faults);
+    if (sample.image) check_image(section_or_empty(table, "image"), *sample.image, faults);
+  }
   if (kind == "polygons") require(table, path, "file", "the text file of the polygons, `x y cell` a line", faults);
   if (kind == "shapes") require(table, path, "shapes", "list at least one [[sample.shapes]]", faults);
 

@@ -446,13 +446,21 @@ template <>
 const std::vector<Row<ImageScene>>& rows() {
   using S = ImageScene;
   static const std::vector<Row<S>> list{
-      {.key = "file", .member = &S::file, .sentence = "PGM, PNG or TIFF, 8 or 16 bits, one channel.", .required = true},
+      {.key = "file",
+       .member = &S::file,
+       .sentence = "PGM, PNG or TIFF: one channel of 8, 16 or 32 bits.",
+       .required = true},
       {.key = "kind",
        .member = &S::kind,
        .sentence = "labels: a pixel holds the number of its cell; grey: a micrograph, cells are found by threshold and "
                    "watershed.",
        .choices = {"labels", "grey"}},
-      {.key = "pixel", .member = &S::pixel, .unit = "m", .range = kPositive, .sentence = "Side of a pixel."},
+      {.key = "pixel",
+       .member = &S::pixel,
+       .unit = "m",
+       .range = kPositive,
+       .sentence = "Side of a pixel.",
+       .required = true},
       {.key = "cells",
        .member = &S::cells,
        .sentence = "outlines: cells as they are; laguerre: the Laguerre tessellation closest to them.",
@@ -460,7 +468,8 @@ const std::vector<Row<ImageScene>>& rows() {
       {.key = "background",
        .member = &S::background,
        .range = kNotNegative,
-       .sentence = "labels: number of what is no cell."},
+       .sentence = "labels: number of what is no cell; where no square of 4 pixels a side fits into it, it goes to the "
+                   "nearest cells."},
       {.key = "walls",
        .member = &S::walls,
        .sentence = "grey: whether walls are darker or brighter than cells.",
@@ -484,7 +493,7 @@ const std::vector<Row<ImageScene>>& rows() {
        .member = &S::simplify,
        .unit = "1",
        .range = between(0, 100),
-       .sentence = "Largest distance of a wall from the boundary of its pixels, in pixels."},
+       .sentence = "outlines: largest distance of a wall from the boundary of its pixels, in pixels."},
   };
   return list;
 }

@@ -15,6 +15,7 @@
 #include "generator/sample/errors.h"
 #include "generator/tissue/bricks.h"
 #include "generator/tissue/cell_areas.h"
+#include "generator/tissue/image_tissue.h"
 #include "generator/tissue/lattice.h"
 #include "generator/tissue/notch.h"
 #include "generator/tissue/polygon_file.h"
@@ -131,6 +132,20 @@ Sample make_imported_tissue(const Scene& scene, Notes& notes) {
   return make_tissue(mosaic, scene, notes);
 }
 
+Sample make_pictured_tissue(const Scene& scene, Notes& notes, const Progress& progress) {
+  Mosaic mosaic = make_image_mosaic(scene, notes, [&](double done, const std::string& what) {
+    if (progress) progress(0.8 * done, what);
+  });
+  try {
+    return make_tissue(mosaic, scene, notes);
+  } catch (const SceneError& error) {
+    if (!has_narrow_cells(mosaic, scene)) throw;
+    auto faults = error.faults();
+    faults.emplace_back(kNarrowCellsOfPictures);
+    throw SceneError(faults);
+  }
+}
+
 /// A box for shapes that were given none: what encloses their outlines.
 Box enclosing_box(const Sample& sample) {
   Box box{sample.x.front(), sample.x.front()};
@@ -167,12 +182,14 @@ Sample generate(const Scene& scene, Notes& notes, const std::function<void(doubl
     sample = make_tissue(mosaic, scene, notes);
   } else if (asked.kind == "polygons") {
     sample = make_imported_tissue(scene, notes);
+  } else if (asked.kind == "image") {
+    sample = make_pictured_tissue(scene, notes, progress);
   } else if (asked.kind == "shapes") {
     if (asked.shapes.empty()) throw SceneError("sample: kind = \"shapes\" needs at least one [[sample.shapes]]");
     sample.cell_begin.push_back(0);
   } else {
     throw SceneError(
-        fmt::format("sample.kind: unknown kind \"{}\"; tissue, rings, honeycomb, bricks, polygons or shapes", asked.kind));
+        fmt::format("sample.kind: unknown kind \"{}\"; tissue, rings, honeycomb, bricks, polygons, image or shapes", asked.kind));
   }
   if (asked.notch && !asked.notch->line.empty()) cut_links(asked.notch->line, sample, notes);
   for (const ShapeScene& shape : asked.shapes)

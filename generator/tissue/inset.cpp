@@ -127,8 +127,13 @@ bool is_sound(const std::vector<Vec2>& polygon, const std::vector<InsetEdge>& ed
   for (std::size_t i = 0; i < corner.size(); ++i) {
     for (std::size_t k = 0; k < count; ++k)
       if (distance_to_segment(corner[i], polygon[k], polygon[(k + 1) % count]) < distance * (1 - 1e-9)) return false;
-    for (std::size_t j = i + 2; j < corner.size(); ++j)
-      if (cross_properly(corner[i], corner[i + 1], corner[j], corner[(j + 1) % corner.size()])) return false;
+    for (std::size_t j = 0; j < corner.size(); ++j) {
+      const std::size_t end = (j + 1) % corner.size();
+      if (i == j || i == end) continue;
+      // Edges of pictures and bricks meet along their length, which is no crossing.
+      if (distance_to_segment(corner[i], corner[j], corner[end]) < distance * 1e-9) return false;
+      if (j > i + 1 && cross_properly(corner[i], corner[i + 1], corner[j], corner[end])) return false;
+    }
   }
   return polygon_area(corner.data(), static_cast<Index>(corner.size())) > 0;
 }

@@ -109,6 +109,14 @@ TEST(Inset, says_when_a_concave_polygon_falls_apart) {
   EXPECT_EQ(inset_polygon(waist, 0.01).outcome, Inset::Outcome::whole);
 }
 
+TEST(Inset, of_a_dumb_bell_whose_sides_fall_on_one_line_is_split) {
+  // Its neck is 5 wide: at 4 all edges of the shrunk polygon lie along each other, and none cross.
+  const std::vector<Vec2> bell{{0, 0},   {28, 0},  {28, 12}, {52, 12}, {52, 0},  {80, 0},
+                               {80, 29}, {52, 29}, {52, 17}, {28, 17}, {28, 29}, {0, 29}};
+  EXPECT_EQ(inset_polygon(bell, 4).outcome, Inset::Outcome::split);
+  EXPECT_EQ(inset_polygon(bell, 2).outcome, Inset::Outcome::whole);
+}
+
 TEST(Inset, of_a_rectangle_vanishes_at_half_its_width) {
   const std::vector<Vec2> rectangle{{0, 0}, {3, 0}, {3, 1}, {0, 1}};
   EXPECT_NEAR(vanishing_distance(rectangle), 0.5, 1e-15);
