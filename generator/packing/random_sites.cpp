@@ -5,20 +5,32 @@
 #include <cmath>
 #include <numbers>
 
+#include "generator/packing/domain.h"
 #include "generator/packing/random.h"
 #include "generator/sample/errors.h"
 
 namespace lamella {
 
-void scatter(Packing& packing, std::uint64_t seed) {
+void scatter(Packing& packing, std::uint64_t seed, const Domain* domain) {
   Random random(seed);
-  for (Disk& disk : packing.disks)
-    for (const int axis : {0, 1}) disk.centre[axis] = packing.box.lo[axis] + random.unit() * packing.box.size()[axis];
+  const auto place = [&] {
+    const Vec2 at(random.unit(), random.unit());
+    return Vec2(packing.box.lo + at.cwiseProduct(packing.box.size()));
+  };
+  for (Disk& disk : packing.disks) {
+    disk.centre = place();
+    // A domain that fills next to nothing of its box is refused by its tiles; here it only must not take for ever.
+    for (int trial = 0; domain && !domain->contains(disk.centre); ++trial) {
+      if (trial == 1000000)
+        throw SceneError("sample.domain: fills less than a millionth of the box around it; make it wider");
+      disk.centre = place();
+    }
+  }
   packing.notes.push_back(
       fmt::format("{} sites at random, disks only say how large cells shall be", packing.disks.size()));
 }
 
-Packing scattered(const PackingScene& scene, const std::vector<double>& radii, double width, double height,
+Packing scattered(const PackingScene& scene, const std::vector<double>& radii, const PackingSpace& space,
                   std::uint64_t seed) {
   Packing packing;
   for (const double radius : radii) {
@@ -30,13 +42,20 @@ Packing scattered(const PackingScene& scene, const std::vector<double>& radii, d
   if (!(scene.fraction > 0)) throw SceneError("sample.packing.fraction: must be positive");
   double area = 0;
   for (const double radius : radii) area += std::numbers::pi * radius * radius / scene.fraction;
-  packing.box.hi = {width, height};
-  if (width == 0) packing.box.hi.x() = height > 0 ? area / height : std::sqrt(area);
-  if (height == 0) packing.box.hi.y() = area / packing.box.hi.x();
-  const double scale = std::sqrt(packing.box.area() / area);  // 1 unless the box is given
+  double room = 0;
+  if (space.domain) {
+    packing.box = space.domain->box;
+    room = space.domain->area;
+  } else {
+    packing.box.hi = {space.width, space.height};
+    if (space.width == 0) packing.box.hi.x() = space.height > 0 ? area / space.height : std::sqrt(area);
+    if (space.height == 0) packing.box.hi.y() = area / packing.box.hi.x();
+    room = packing.box.area();
+  }
+  const double scale = std::sqrt(room / area);  // 1 unless the box is given
   for (Disk& disk : packing.disks) disk.radius *= scale;
-  packing.fraction = area_fraction(packing.disks, packing.box);
-  scatter(packing, seed);
+  packing.fraction = area_fraction(packing.disks, packing.box) * packing.box.area() / room;
+  scatter(packing, seed, space.domain);
   return packing;
 }
 

@@ -7,11 +7,11 @@
 
 namespace lamella {
 
-/// Moves every disk of a packing to a place of its own in the box, uniformly at random: disks overlap then.
-void scatter(Packing& packing, std::uint64_t seed);
+/// Moves every disk of a packing to a place of its own in the box, or in the domain, uniformly at random: disks overlap then.
+void scatter(Packing& packing, std::uint64_t seed, const Domain* domain = nullptr);
 
-/// Disks of these radii scattered over a box that they fill to packing.fraction, as `pack` has it for width and height.
-Packing scattered(const PackingScene& scene, const std::vector<double>& radii, double width, double height,
+/// Disks of these radii scattered over a box, or a domain, that they fill to packing.fraction: as `pack` has it for its space.
+Packing scattered(const PackingScene& scene, const std::vector<double>& radii, const PackingSpace& space,
                   std::uint64_t seed);
 
 }  // namespace lamella

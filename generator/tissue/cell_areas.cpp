@@ -7,6 +7,8 @@
 
 #include "generator/packing/exact_areas.h"
 #include "generator/sample/errors.h"
+#include "generator/tissue/domain_measure.h"
+#include "generator/tissue/domain_tissue.h"
 #include "generator/tissue/inset_areas.h"
 #include "generator/tissue/outlines.h"
 
@@ -16,26 +18,24 @@ namespace {
 using Progress = std::function<void(double done, const std::string& what)>;
 
 /// What was asked of each cell: what a file states, or else the square of the disk's radius.
-std::vector<double> shares_of(const Packing& packing, bool whole_tiles, Notes& notes) {
+std::vector<double> shares_of(const Packing& packing, double room, bool whole_tiles, Notes& notes) {
   std::vector<double> shares = packing.target_area;
   if (shares.empty()) {
     for (const Disk& disk : packing.disks) shares.push_back(disk.radius * disk.radius);
     return shares;
   }
-  const double box = packing.box.area();
   long double sum = 0;
   std::vector<std::string> faults;
   for (std::size_t i = 0; i < shares.size(); ++i) {
     sum += shares[i];
-    if (shares[i] >= box && shares.size() > 1)
-      faults.push_back(fmt::format("sample.areas: disk {} shall have a cell of {:.6g} m2, the box has {:.6g} m2", i,
-                                   shares[i], box));
+    if (shares[i] >= room && shares.size() > 1)
+      faults.push_back(fmt::format("sample.areas: disk {} shall have a cell of {:.6g} m2, there are {:.6g} m2 in all",
+                                   i, shares[i], room));
   }
   if (!faults.empty()) throw SceneError(faults);
-  if (!whole_tiles || std::abs(static_cast<double>(sum) / box - 1) > 1e-9)
-    notes.push_back(
-        fmt::format("the stated areas sum to {:.6g} m2, the box has {:.6g} m2: cells have them in proportion",
-                    static_cast<double>(sum), box));
+  if (!whole_tiles || std::abs(static_cast<double>(sum) / room - 1) > 1e-9)
+    notes.push_back(fmt::format("the stated areas sum to {:.6g} m2, there are {:.6g} m2: cells have them in proportion",
+                                static_cast<double>(sum), room));
   return shares;
 }
 
@@ -86,21 +86,38 @@ std::vector<double> cell_areas(const Tessellation& tessellation, const std::vect
   return areas;
 }
 
+struct Start {
+  std::vector<Vec2> centres;
+  std::vector<double> weights;
+};
+
+Start start_of(const Packing& packing, const AreasScene& scene) {
+  Start start;
+  for (const Disk& disk : packing.disks) {
+    start.centres.push_back(disk.centre);
+    start.weights.push_back(scene.sites == "random" ? 0 : disk.radius * disk.radius);
+  }
+  return start;
+}
+
+void note_areas(const std::vector<double>& areas, const CellAreas& exact, const AreasScene& scene,
+                const AreaSearch& search, Notes& notes) {
+  double sum = 0;
+  for (const double area : areas) sum += area;
+  notes.push_back(fmt::format(
+      "areas of {} {} as prescribed to within {:.2g}, {:.6g} m2 together: {} Newton iterations, {} diagrams{}",
+      areas.size(), exact.distance.empty() ? "tiles" : "insets", largest_error(areas, exact.shares), sum,
+      search.iterations, search.diagrams, scene.sweeps > 0 ? fmt::format(", {} sweeps", scene.sweeps) : ""));
+}
+
 }  // namespace
 
 CellAreas tessellate_with_areas(const Packing& packing, const AreasScene& scene, const Periodic& periodic,
                                 const std::vector<double>& distance, Notes& notes, const Progress& progress) {
   const bool insets = scene.of == "inset";
   CellAreas result;
-  result.shares = shares_of(packing, !insets, notes);
-  std::vector<Vec2> centres;
-  std::vector<double> weights;
-  for (const Disk& disk : packing.disks) {
-    centres.push_back(disk.centre);
-    weights.push_back(disk.radius * disk.radius);
-  }
-  if (scene.sites == "random") std::fill(weights.begin(), weights.end(), 0);
-
+  result.shares = shares_of(packing, packing.box.area(), !insets, notes);
+  auto [centres, weights] = start_of(packing, scene);
   AreaSearch search(scene.tolerance, progress);
   AreaProblem problem = tile_problem(packing.box, periodic, std::move(centres), result.shares);
   if (insets) problem.shares = tiles_around_insets(result.shares, distance, packing.box.area());
@@ -118,23 +135,47 @@ CellAreas tessellate_with_areas(const Packing& packing, const AreasScene& scene,
       tessellate(problem.centres, found.weight, packing.box, {Duplicates::kRefuse, Hidden::kRefuse, periodic});
   // Measured again, on the tiles that the tissue is made of.
   const auto areas = cell_areas(result.tessellation, result.distance, static_cast<Index>(problem.centres.size()));
-  double sum = 0;
-  for (const double area : areas) sum += area;
-  notes.push_back(fmt::format(
-      "areas of {} {} as prescribed to within {:.2g}, {:.6g} m2 together: {} Newton iterations, {} diagrams{}",
-      areas.size(), insets ? "insets" : "tiles", largest_error(areas, result.shares), sum, search.iterations,
-      search.diagrams, scene.sweeps > 0 ? fmt::format(", {} sweeps", scene.sweeps) : ""));
+  note_areas(areas, result, scene, search, notes);
+  return result;
+}
+
+CellAreas tessellate_with_areas(const Packing& packing, const AreasScene& scene, const Domain& domain, Notes& notes,
+                                const Progress& progress) {
+  if (scene.of == "inset")
+    throw SceneError(
+        "sample.areas.of = \"inset\": only for tissues that fill a box; in a domain, or stretched, the tiles can have "
+        "the areas");
+  CellAreas result;
+  result.shares = shares_of(packing, domain.area, true, notes);
+  auto [centres, weights] = start_of(packing, scene);
+  AreaProblem problem{.box = domain.box,
+                      .periodic = {false, false},
+                      .measure = [&](const std::vector<Vec2>& x,
+                                     const std::vector<double>& w) { return measure_domain_tiles(x, w, domain.loops); },
+                      .centres = std::move(centres),
+                      .shares = result.shares};
+  AreaSearch search(scene.tolerance, progress);
+  const Weights found =
+      search.count(lloyd_sweeps(problem, std::move(weights), scene.sweeps, search.options(scene.tolerance, 0, 1)));
+  std::vector<Disk> sites;
+  for (const Vec2& centre : problem.centres) sites.push_back({centre, 0});
+  result.tessellation = tessellate(problem.centres, found.weight, box_around(domain.loops, sites),
+                                   {Duplicates::kRefuse, Hidden::kRefuse, {false, false}});
+  note_areas(found.cells.area, result, scene, search, notes);
   return result;
 }
 
 void note_welded_areas(const CellAreas& exact, const Tessellation& welded, int count, Notes& notes) {
+  const auto sites = static_cast<Index>(exact.shares.size());
+  note_welded_areas(cell_areas(exact.tessellation, exact.distance, sites), cell_areas(welded, exact.distance, sites),
+                    count, notes);
+}
+
+void note_welded_areas(const std::vector<double>& before, const std::vector<double>& after, int count, Notes& notes) {
   if (count == 0) {
     notes.push_back("no wall was welded: areas are exact");
     return;
   }
-  const auto sites = static_cast<Index>(exact.shares.size());
-  const auto before = cell_areas(exact.tessellation, exact.distance, sites);
-  const auto after = cell_areas(welded, exact.distance, sites);
   double largest = 0, squares = 0;
   int changed = 0;
   for (std::size_t i = 0; i < before.size(); ++i) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "generator/generate.h"
+#include "generator/packing/domain.h"
 #include "generator/packing/laguerre.h"
 #include "generator/packing/packing.h"
 #include "generator/sample/scene.h"
@@ -24,7 +25,14 @@ CellAreas tessellate_with_areas(const Packing& packing, const AreasScene& scene,
                                 const std::vector<double>& distance, Notes& notes,
                                 const std::function<void(double done, const std::string& what)>& progress = {});
 
+/// The same in a domain, whose tiles [sample.areas] of = "inset" does not know: throws SceneError for it. The tessellation is that of a box
+/// around the domain: what the domain leaves of its tiles has the areas.
+CellAreas tessellate_with_areas(const Packing& packing, const AreasScene& scene, const Domain& domain, Notes& notes,
+                                const std::function<void(double done, const std::string& what)>& progress = {});
+
 /// Notes what welding, which comes last, has done to the areas.
 void note_welded_areas(const CellAreas& exact, const Tessellation& welded, int count, Notes& notes);
+/// The same of areas per site.
+void note_welded_areas(const std::vector<double>& before, const std::vector<double>& after, int count, Notes& notes);
 
 }  // namespace lamella

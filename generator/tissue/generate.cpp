@@ -56,18 +56,41 @@ Sample make_tissue(Mosaic& mosaic, const Scene& scene, Notes& notes) {
   return make_tissue(mosaic, scene.sample.walls, radius, notes);
 }
 
+std::vector<Vec2> centres_of(const Tessellation& tessellation, std::size_t sites) {
+  std::vector<Vec2> centres(sites, Vec2::Zero());
+  for (const Tile& tile : tessellation.tiles) centres[tile.site] = tile_centroid(tessellation, tile);
+  return centres;
+}
+
 CellAreas make_cell_areas(const Packing& packing, const Scene& scene, Notes& notes, const Progress& progress) {
-  std::vector<double> distance;  // by which the inset moves each cell's wall [m]
-  for (std::size_t i = 0; i < packing.disks.size(); ++i) {
-    const std::string group = packing.group.empty() ? kGroup : packing.group[i];
-    distance.push_back(scene.stages.front().cell(group).outline_radius() + scene.sample.walls.gap / 2);
-  }
   const std::string& along = scene.sample.periodic;
   const Periodic periodic{along == "x" || along == "xy", along == "y" || along == "xy"};
-  return tessellate_with_areas(packing, *scene.sample.areas, periodic, distance, notes,
-                               [&](double done, const std::string& what) {
-                                 if (progress) progress(0.7 + 0.1 * done, what);
-                               });
+  std::vector<Vec2> places;
+  for (const Disk& disk : packing.disks) places.push_back(disk.centre);
+  std::vector<double> distance = inset_distances(packing, scene, places);
+  // Where walls differ from place to place, a cell's wall follows from the cell: again, until they agree.
+  for (int round = 1;; ++round) {
+    Notes own;
+    CellAreas areas = tessellate_with_areas(packing, *scene.sample.areas, periodic, distance, own,
+                                            [&](double done, const std::string& what) {
+                                              if (progress) progress(0.7 + 0.1 * done, what);
+                                            });
+    std::vector<double> found = distance;
+    if (scene.sample.areas->of == "inset" && (!scene.sample.layers.empty() || scene.sample.gradient))
+      found = inset_distances(packing, scene, centres_of(areas.tessellation, places.size()));
+    double change = 0;
+    for (std::size_t i = 0; i < found.size(); ++i) change = std::max(change, std::abs(found[i] / distance[i] - 1));
+    if (change < 1e-12 || round == 20) {
+      if (change >= 1e-12)
+        own.push_back(fmt::format(
+            "walls and areas depend on each other here, and have not settled: walls differ by up to {:.2g} from those "
+            "that the areas were made for",
+            change));
+      notes.insert(notes.end(), own.begin(), own.end());
+      return areas;
+    }
+    distance = std::move(found);
+  }
 }
 
 Mosaic make_packed_mosaic(const Scene& scene, Notes& notes, const Progress& progress) {
@@ -188,8 +211,8 @@ Sample generate(const Scene& scene, Notes& notes, const std::function<void(doubl
     if (asked.shapes.empty()) throw SceneError("sample: kind = \"shapes\" needs at least one [[sample.shapes]]");
     sample.cell_begin.push_back(0);
   } else {
-    throw SceneError(
-        fmt::format("sample.kind: unknown kind \"{}\"; tissue, rings, honeycomb, bricks, polygons, image or shapes", asked.kind));
+    throw SceneError(fmt::format(
+        "sample.kind: unknown kind \"{}\"; tissue, rings, honeycomb, bricks, polygons, image or shapes", asked.kind));
   }
   if (asked.notch && !asked.notch->line.empty()) cut_links(asked.notch->line, sample, notes);
   for (const ShapeScene& shape : asked.shapes)

@@ -11,6 +11,7 @@
 #include "generator/packing/variation.h"
 #include "generator/packing/weld.h"
 #include "generator/sample/errors.h"
+#include "generator/tissue/cell_areas.h"
 #include "generator/tissue/domain_tissue.h"
 #include "generator/tissue/outlines.h"
 
@@ -33,6 +34,12 @@ void report_hidden(const Tessellation& tessellation, Notes& notes) {
   std::vector<std::string> names;
   for (const Index site : tessellation.hidden) names.push_back(fmt::format("site {}", site));
   notes.push_back(fmt::format("{} sites have no cell: {}", names.size(), listed(names)));
+}
+
+std::vector<double> areas_of(const DomainTissue& tissue) {
+  std::vector<double> areas;
+  for (const MosaicCell& cell : tissue.mosaic.cells) areas.push_back(polygon_area(polygon_of(tissue.mosaic, cell)));
+  return areas;
 }
 
 void draw_out(DomainTissue& tissue, const Eigen::Matrix2d& map, const Box& box) {
@@ -63,12 +70,22 @@ Mosaic make_domain_mosaic(const Scene& scene, Notes& notes, const TissueProgress
   if (progress) progress(0.7, "tessellation");
   LaguerreOptions options;
   if (asked.packing.duplicates == "keep_first") options = {Duplicates::kKeepFirst, Hidden::kReport};
-  Tessellation tiles = tessellate(packing.disks, box_around(squeezed_domain.loops, packing.disks), options);
-  report_hidden(tiles, notes);
-  weld_short_edges(tiles, std::max(asked.walls.weld, 1e-9) * mean_edge_length(tiles));
+  Tessellation tiles;
+  if (asked.areas) {
+    tiles =
+        tessellate_with_areas(packing, *asked.areas, squeezed_domain, notes, [&](double done, const std::string& what) {
+          if (progress) progress(0.7 + 0.1 * done, what);
+        }).tessellation;
+  } else {
+    tiles = tessellate(packing.disks, box_around(squeezed_domain.loops, packing.disks), options);
+    report_hidden(tiles, notes);
+    weld_short_edges(tiles, std::max(asked.walls.weld, 1e-9) * mean_edge_length(tiles));
+  }
   DomainTissue tissue = clip_tiles(tiles, squeezed_domain.loops, options, notes);
   draw_out(tissue, map, domain.box);
-  weld_short_edges(tissue, std::max(asked.walls.weld, kLeastWeld) * mean_wall_length(tissue), notes);
+  const auto before = areas_of(tissue);
+  const int welded = weld_short_edges(tissue, std::max(asked.walls.weld, kLeastWeld) * mean_wall_length(tissue), notes);
+  if (asked.areas) note_welded_areas(before, areas_of(tissue), welded, notes);
   mark_outer_sides(tissue);
   if (!packing.group.empty())
     for (std::size_t c = 0; c < tissue.mosaic.cells.size(); ++c)
@@ -91,17 +108,31 @@ void vary_cells(Mosaic& mosaic, const SampleScene& scene, Notes& notes) {
   }
   for (std::size_t k = 0; k < held.size(); ++k)
     if (held[k] == 0)
-      notes.push_back(fmt::format("sample.layers: layer {} (group \"{}\") holds the centre of no cell: {}", k,
-                                  scene.layers[k].group,
-                                  k + 1 < held.size() ? "it lies elsewhere, is thinner than a cell, or later layers cover it"
-                                                      : "it lies elsewhere, or is thinner than a cell"));
+      notes.push_back(fmt::format(
+          "sample.layers: layer {} (group \"{}\") holds the centre of no cell: {}", k, scene.layers[k].group,
+          k + 1 < held.size() ? "it lies elsewhere, is thinner than a cell, or later layers cover it"
+                              : "it lies elsewhere, or is thinner than a cell"));
+}
+
+std::vector<double> inset_distances(const Packing& packing, const Scene& scene, const std::vector<Vec2>& places) {
+  const SampleScene& asked = scene.sample;
+  PositionFactor thickness;
+  if (asked.gradient) thickness = gradient_factor(*asked.gradient, asked.gradient->thickness, "thickness", packing.box);
+  std::vector<double> distance;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    std::string group = packing.group.empty() ? "cells" : packing.group[i];
+    const int layer = layer_at(asked.layers, packing.box, places[i]);
+    if (layer >= 0 && asked.layers[layer].group != "cells") group = asked.layers[layer].group;
+    const double factor = thickness ? thickness(places[i]) : 1;
+    distance.push_back(factor * scene.stages.front().cell(group).outline_radius() + asked.walls.gap / 2);
+  }
+  return distance;
 }
 
 void vary_links(Sample& sample, const SampleScene& scene) {
   if (!sample.cell_thickness.empty()) sample.cell_thickness.resize(sample.cells(), 1);
   if (!scene.gradient) return;
-  const PositionFactor strength =
-      gradient_factor(*scene.gradient, scene.gradient->strength, "strength", sample.box);
+  const PositionFactor strength = gradient_factor(*scene.gradient, scene.gradient->strength, "strength", sample.box);
   if (!strength) return;
   for (std::size_t l = 0; l < sample.links.size(); ++l) {
     Vec2 b = sample.x[sample.links[l].b];

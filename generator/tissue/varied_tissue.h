@@ -4,6 +4,7 @@
 #include <string>
 
 #include "generator/generate.h"
+#include "generator/packing/packing.h"
 #include "generator/sample/scene.h"
 #include "generator/tissue/mosaic.h"
 
@@ -18,6 +19,10 @@ Mosaic make_domain_mosaic(const Scene& scene, Notes& notes, const TissueProgress
 /// Groups and thicknesses of cells as [[sample.layers]] and [sample.gradient] say, by the cell's centre: a layer's group replaces what
 /// the cell has unless it is "cells". Notes name layers without a cell.
 void vary_cells(Mosaic& mosaic, const SampleScene& scene, Notes& notes);
+
+/// By how much the walls of each disk's cell move in, were its centre at `places`: radius of its group times thickness factor, and half
+/// the gap [m].
+std::vector<double> inset_distances(const Packing& packing, const Scene& scene, const std::vector<Vec2>& places);
 
 /// Strength factors of links by [sample.gradient], at the middle between the two nodes; thickness factors of shells that are no
 /// cells of the tissue. Nothing where nothing varies.
