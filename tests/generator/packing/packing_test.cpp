@@ -133,6 +133,12 @@ TEST(packing, every_disk_lies_in_its_tile) {
   }
 }
 
+TEST(packing, very_unequal_disks_are_packed_too) {
+  const Packing packing = pack(asked("periodic", 0.8), lognormal_radii(3000, 1.0, 9), 0, 0, 9);
+  EXPECT_NEAR(packing.fraction, 0.8, 1e-12);
+  EXPECT_LE(brute_force_overlap(packing), 0);
+}
+
 TEST(packing, ten_thousand_disks_fill_0_83_of_a_torus) {
   const Packing packing = pack(asked("periodic", 0.83), lognormal_radii(10000, 0.3, 9), 0, 0, 9);
   EXPECT_NEAR(packing.fraction, 0.83, 1e-12);
@@ -159,6 +165,44 @@ TEST(packing, a_scene_that_names_a_file_gets_its_disks_and_is_told_of_overlaps) 
   EXPECT_THAT(make_packing(scene).notes, ElementsAre(HasSubstr("by up to 0.25 m")));
   scene.sample.width = scene.sample.height = 1.5;
   EXPECT_THROW(make_packing(scene), SceneError);  // a centre outside the box
+}
+
+TEST(packing, a_sample_that_repeats_gets_a_packing_that_does) {
+  Scene scene;
+  scene.sample.packing.count = 100;
+  scene.sample.packing.fraction = 0.75;
+  for (const auto& [periodic, sides] :
+       {std::pair{"none", Periodic{false, false}}, {"x", {true, false}}, {"y", {false, true}}, {"xy", {true, true}}}) {
+    scene.sample.periodic = periodic;
+    const Packing packing = make_packing(scene);
+    EXPECT_EQ(packing.periodic, sides) << periodic;
+    EXPECT_LE(brute_force_overlap(packing), 0);
+    bool crosses[2] = {false, false};
+    for (const Disk& disk : packing.disks)
+      for (const int axis : {0, 1})
+        crosses[axis] = crosses[axis] || disk.centre[axis] < packing.box.lo[axis] + disk.radius ||
+                        disk.centre[axis] > packing.box.hi[axis] - disk.radius;
+    EXPECT_EQ(crosses[0], sides[0]) << periodic;
+    EXPECT_EQ(crosses[1], sides[1]) << periodic;
+  }
+}
+
+TEST(packing, the_cells_of_a_mixture_are_in_their_groups) {
+  Scene scene;
+  scene.sample.packing.count = 200;
+  scene.sample.packing.fraction = 0.75;
+  scene.sample.sizes.distribution = "mixture";
+  scene.sample.sizes.mixture.resize(2);
+  scene.sample.sizes.mixture[0].mean = 1, scene.sample.sizes.mixture[0].cv = 0,
+  scene.sample.sizes.mixture[0].share = 0.9;
+  scene.sample.sizes.mixture[1].mean = 3, scene.sample.sizes.mixture[1].cv = 0,
+  scene.sample.sizes.mixture[1].share = 0.1;
+  scene.sample.sizes.mixture[1].group = "vessels";
+  const Packing packing = make_packing(scene);
+  ASSERT_EQ(packing.group.size(), 200U);
+  EXPECT_EQ(std::count(packing.group.begin(), packing.group.end(), "vessels"), 20);
+  for (std::size_t k = 0; k < 200; ++k)
+    EXPECT_NEAR(packing.disks[k].radius, packing.group[k] == "vessels" ? 3 : 1, 1e-12);
 }
 
 std::string message_of(const PackingScene& scene, const std::vector<double>& radii, double width, double height) {
