@@ -172,18 +172,40 @@ Filling random_start(const std::vector<double>& radii, double fraction, const Pa
   return filling;
 }
 
-double size_deviation(const Filling& filling) {
-  if (!filling.factor) return 0;
-  // The common scale is that of the areas, as in set_radii.
-  double asked = 0, deviation = 0;
+std::vector<double> size_deviations(const Filling& filling) {
   const std::size_t n = filling.drawn.size();
-  std::vector<double> radius(n);
+  std::vector<double> asked(n), deviation(n);
+  double squares = 0;
   for (std::size_t i = 0; i < n; ++i)
-    asked += std::pow(radius[i] = filling.drawn[i] * filling.factor_at(filling.soft.x[i]), 2);
-  const double scale = std::sqrt(disk_area(filling.soft.radius) / (std::numbers::pi * asked));
-  for (std::size_t i = 0; i < n; ++i)
-    deviation = std::max(deviation, std::abs(filling.soft.radius[i] / (scale * radius[i]) - 1));
+    squares += std::pow(asked[i] = filling.drawn[i] * filling.factor_at(filling.soft.x[i]), 2);
+  // The common scale is that of the areas, as in set_radii.
+  const double scale = std::sqrt(disk_area(filling.soft.radius) / (std::numbers::pi * squares));
+  for (std::size_t i = 0; i < n; ++i) deviation[i] = std::abs(filling.soft.radius[i] / (scale * asked[i]) - 1);
   return deviation;
+}
+
+void even_out(Filling& filling, Random& random, const PackingProgress& progress) {
+  constexpr int kRounds = 40;
+  SoftDisks& soft = filling.soft;
+  const std::size_t n = soft.x.size();
+  const double fraction = fraction_of(soft);
+  Places places(filling, random);
+  for (int round = 0; round < kRounds; ++round) {
+    relax(soft, {.clearance = kClearances[0], .balance = 1e-3, .steps = 300});
+    const std::vector<double> overlap = overlaps(soft);
+    const double mean = std::accumulate(overlap.begin(), overlap.end(), 0.0) / static_cast<double>(n);
+    std::vector<std::size_t> squeezed;
+    for (std::size_t i = 0; i < n; ++i)
+      if (overlap[i] > std::max(0.02, 4 * mean)) squeezed.push_back(i);
+    if (progress) progress(0, fmt::format("packing: {} disks squeezed", squeezed.size()));
+    if (squeezed.empty()) return;
+    std::sort(squeezed.begin(), squeezed.end(),
+              [&](std::size_t i, std::size_t j) { return std::pair(-overlap[i], i) < std::pair(-overlap[j], j); });
+    // Some at a time: those next to them have room then.
+    squeezed.resize(std::min(squeezed.size(), std::max<std::size_t>(1, n / 100)));
+    for (const std::size_t i : squeezed) soft.x[i] = places.next(soft.radius[i] / filling.factor_at(soft.x[i]));
+    if (filling.factor) set_radii(filling, fraction);
+  }
 }
 
 void follow_factor(Filling& filling, const PackingProgress& progress) {
@@ -191,7 +213,8 @@ void follow_factor(Filling& filling, const PackingProgress& progress) {
   const double fraction = fraction_of(filling.soft);
   for (int round = 0; round < kRounds; ++round) {
     const Relaxation state = relax(filling.soft, {.clearance = kClearances[0], .balance = 1e-3, .steps = 50});
-    const double deviation = size_deviation(filling);
+    const std::vector<double> deviations = size_deviations(filling);
+    const double deviation = *std::max_element(deviations.begin(), deviations.end());
     if (progress) progress(0.3 * round / kRounds, fmt::format("packing: radii off their place's by {:.1e}", deviation));
     if (state.end != RelaxationEnd::kOutOfSteps && deviation < 1e-3) return;
     set_radii(filling, fraction);

@@ -6,6 +6,8 @@
 #include <numeric>
 #include <utility>
 
+#include "generator/packing/domain.h"
+
 namespace lamella {
 namespace {
 
@@ -71,6 +73,25 @@ class Fire {
     wrap_into_box();
     for (Index i = 0; i < n_; ++i) disks_.x[id_[i]] = {x_[i], y_[i]};
     return state;
+  }
+
+  std::vector<double> overlaps() const {
+    std::vector<double> largest(n_);
+    const auto add = [&](Index i, double overlap) {
+      const Index own = i < n_ ? i : list_.ghosts[i - n_].owner;
+      double& so_far = largest[id_[own]];
+      so_far = std::max(so_far, overlap / radius_[own]);
+    };
+    for (std::size_t k = 0; k < list_.first.size(); ++k) {
+      const std::int32_t i = list_.first[k], j = list_.second[k];
+      const Vec2 shift = j < n_ ? Vec2(0, 0) : list_.ghosts[j - n_].shift;
+      const Index own = j < n_ ? j : list_.ghosts[j - n_].owner;
+      const double overlap = radius_[i] + radius_[own] - (Vec2(x_[own], y_[own]) + shift - Vec2(x_[i], y_[i])).norm();
+      add(i, overlap), add(j, overlap);
+    }
+    for (const auto& [i, w] : list_.at_wall)
+      add(i, radius_[i] - distance_to_segment({x_[i], y_[i]}, disks_.walls[w].a, disks_.walls[w].b));
+    return largest;
   }
 
  private:
@@ -246,5 +267,7 @@ class Fire {
 Relaxation relax(SoftDisks& disks, const RelaxationGoal& goal, const std::function<void(const Relaxation&)>& progress) {
   return Fire(disks, goal).run(progress);
 }
+
+std::vector<double> overlaps(SoftDisks disks) { return Fire(disks, {}).overlaps(); }
 
 }  // namespace lamella

@@ -119,6 +119,23 @@ TEST(packing_space, the_search_for_overlaps_sees_the_boundary_from_both_sides) {
   EXPECT_GT(overlap(0, 0.1), 1);                         // in the middle of the ring, where there is none
 }
 
+TEST(packing_space, two_chambers_fill_evenly_although_disks_hardly_pass_between_them) {
+  DomainScene dumb_bell;
+  dumb_bell.kind = "polygon";
+  dumb_bell.points = {{0, 0}, {2, 0}, {2, 0.95}, {4, 0.95}, {4, 0}, {6, 0},
+                      {6, 2}, {4, 2}, {4, 1.05}, {2, 1.05}, {2, 2}, {0, 2}};
+  const Domain domain = make_domain(dumb_bell);
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const Packing packing = pack(asked(0.78), lognormal_radii(1000, 0.3, seed),
+                                 {.width = 0, .height = 0, .domain = &domain, .factor = {}}, seed);
+    expect_no_overlap(packing, domain);
+    double left = 0;
+    for (const Disk& d : packing.disks)
+      if (d.centre.x() < 2) left += std::numbers::pi * d.radius * d.radius;
+    EXPECT_NEAR(left / 4, 0.78, 0.03);
+  }
+}
+
 TEST(packing_space, a_domain_can_be_jammed) {
   const Domain domain = make_domain(disk(1));
   PackingScene scene = asked(0.7);
@@ -201,7 +218,7 @@ TEST(packing_space, layers_have_sizes_of_their_own) {
   int right = 0;
   for (std::size_t k = 0; k < radii.size(); ++k)
     right += std::abs(packing.disks[k].radius / (radii[k] * small * layers(packing.disks[k].centre)) - 1) < 0.01;
-  EXPECT_GE(right, 990);
+  EXPECT_GE(right, 998);
 }
 
 TEST(packing_space, a_factor_that_is_none_is_refused) {
