@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -20,9 +19,9 @@ using Block = Eigen::Array<double, Eigen::Dynamic, 1, 0, kBlock, 1>;
 
 constexpr double kLargestStep = 0.45;  // of time; stable up to 2 / sqrt(2 x 6 contacts) = 0.57
 constexpr double kLongestMove =
-    0.2;                       // in mean radii: disks that start on top of each other are not shot across the box
-constexpr double kSkin = 0.8;  // in mean radii
-constexpr double kTiny = std::numeric_limits<double>::min();
+    0.2;                          // in mean radii: disks that start on top of each other are not shot across the box
+constexpr double kSkin = 0.8;     // in mean radii
+constexpr double kTiny = 1e-150;  // added to lengths that are divided by
 
 bool crosses(const Wall& wall, const Vec2& from, const Vec2& to) {
   const Vec2 d = wall.b - wall.a;
