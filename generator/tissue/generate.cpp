@@ -81,7 +81,9 @@ Sample make_packed_tissue(const Scene& scene, Notes& notes, const Progress& prog
   if (exact) note_welded_areas(*exact, tessellation, welded, notes);
   if (progress) progress(0.8, "walls");
   Mosaic mosaic = mosaic_of(tessellation);
-  return make_tissue(mosaic, scene, notes);
+  Sample sample = make_tissue(mosaic, scene, notes);
+  if (exact && !exact->distance.empty()) note_enclosed_areas(mosaic, scene.sample.walls.gap, sample, notes);
+  return sample;
 }
 
 Sample make_packed_rings(const Scene& scene, Notes& notes, const Progress& progress) {
