@@ -101,7 +101,7 @@ Naming names_of(const std::vector<Vec2>& centres, const std::vector<double>& wei
   };
 }
 
-/// Sites that are the same as one of lower index, and that one. Only hidden sites can be, or can have such.
+/// Sites that are the same as one of lower index, and that one. They are hidden: the first of them has the cell, if any.
 std::vector<std::pair<Index, Index>> duplicates(const PlaneDiagram& plane) {
   const auto key = [&](Index i) {
     return std::array{plane.site[i].centre.x(), plane.site[i].centre.y(), plane.site[i].weight};
@@ -154,11 +154,7 @@ std::vector<Index> make_tiles(const PlaneDiagram& plane, const std::vector<Index
   return slivers;
 }
 
-void remove(std::vector<Index>& sites, const std::vector<Index>& sorted) {
-  std::erase_if(sites, [&](Index site) { return std::binary_search(sorted.begin(), sorted.end(), site); });
-}
-
-std::vector<Index> drop_duplicates(const PlaneDiagram& plane, Duplicates what, const Naming& name_of) {
+std::vector<Index> later_duplicates(const PlaneDiagram& plane, Duplicates what, const Naming& name_of) {
   std::vector<Index> dropped;
   std::vector<std::string> faults;
   for (const auto& [site, first] : duplicates(plane)) {
@@ -190,7 +186,7 @@ Tessellation tessellate(const std::vector<PowerSite>& sites, const Box& box, con
   Tessellation result;
   result.box = box;
   result.periodic = options.periodic;
-  std::vector<Index> kept(sites.size()), dropped;
+  std::vector<Index> kept(sites.size());
   std::iota(kept.begin(), kept.end(), 0);
   const auto diagram = [&] {
     std::vector<PowerSite> some;
@@ -199,12 +195,10 @@ Tessellation tessellate(const std::vector<PowerSite>& sites, const Box& box, con
     return plane_diagram(std::move(some), box, options.periodic);
   };
   PlaneDiagram plane = diagram();
-  dropped = drop_duplicates(plane, options.duplicates, name_of);
-  remove(kept, dropped);
-  if (!dropped.empty()) plane = diagram();
+  const std::vector<Index> dropped = later_duplicates(plane, options.duplicates, name_of);
   // A hidden site does not change the diagram, but slivers do by their rounding: once more without, until there are none.
   for (std::vector<Index> slivers; !(slivers = make_tiles(plane, kept, result)).empty(); plane = diagram())
-    remove(kept, slivers);
+    std::erase_if(kept, [&](Index site) { return std::binary_search(slivers.begin(), slivers.end(), site); });
   auto tile = result.tiles.begin();
   for (Index i = 0; i < static_cast<Index>(sites.size()); ++i) {
     if (tile != result.tiles.end() && tile->site == i)

@@ -182,6 +182,7 @@ class Vertices {
         const auto found = std::find_if(first, last, [&](const Entry& c) {
           return c.image == Image{0, 0} && same(*e, c);
         });
+        if (found == last && outside(e->vertex)) continue;
         if (found == last)
           throw std::logic_error("a vertex of a periodic power diagram has no image at its first site");
         plane_.canonical[e->vertex] = {found->vertex, e->image};
@@ -196,6 +197,15 @@ class Vertices {
     Index vertex;
     Image image;  // of the owner
   };
+
+  /// Beyond a side of the box, where nobody asks for it and cells need not be those of the plane.
+  bool outside(Index v) const {
+    for (const int axis : {0, 1})
+      if (!plane_.periodic[axis] &&
+          !(d_.vertices[v][axis] >= plane_.box.lo[axis] && d_.vertices[v][axis] <= plane_.box.hi[axis]))
+        return true;
+    return false;
+  }
 
   Copy member(Index k) const { return plane_.site_copy(d_.member[k]); }
 

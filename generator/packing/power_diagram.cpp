@@ -84,7 +84,8 @@ class Builder {
     for (const Index i : insertion_order(sites)) {
       const auto vertex = triangulation_.insert(point(sites[i]), hint);
       hint = vertex->face();
-      if (vertex->info().index < 0) vertex->info().index = i;  // not so when it is a duplicate
+      Index& known = vertex->info().index;  // of a duplicate: then the first of them has the cell, in every image
+      known = known < 0 ? i : std::min(known, i);
     }
   }
 
