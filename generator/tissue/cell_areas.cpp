@@ -190,4 +190,16 @@ void note_welded_areas(const std::vector<double>& before, const std::vector<doub
                   count, changed, before.size(), largest, std::sqrt(squares / static_cast<double>(before.size()))));
 }
 
+void note_enclosed_areas(const Mosaic& mosaic, double gap, const Sample& sample, Notes& notes) {
+  double largest = 0;
+  for (std::size_t c = 0; c < mosaic.cells.size(); ++c) {
+    const double inset = inset_area(polygon_of(mosaic, mosaic.cells[c]), sample.radius[c] + gap / 2);
+    largest = std::max(largest, std::abs(sample.rest_area[c] / inset - 1));
+  }
+  notes.push_back(fmt::format(
+      "mass points enclose the areas of the insets to within {:.2g}: those close to a corner cut it off; more segments "
+      "cut off less",
+      largest));
+}
+
 }  // namespace lamella

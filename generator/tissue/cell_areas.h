@@ -9,6 +9,7 @@
 #include "generator/packing/laguerre.h"
 #include "generator/packing/packing.h"
 #include "generator/sample/scene.h"
+#include "generator/tissue/mosaic.h"
 
 namespace lamella {
 
@@ -34,5 +35,9 @@ CellAreas tessellate_with_areas(const Packing& packing, const AreasScene& scene,
 void note_welded_areas(const CellAreas& exact, const Tessellation& welded, int count, Notes& notes);
 /// The same of areas per site.
 void note_welded_areas(const std::vector<double>& before, const std::vector<double>& after, int count, Notes& notes);
+
+/// Notes how far the polygons of mass points are from the insets: those near a corner are merged with it, which cuts it off.
+/// The first cells of the sample are those of the mosaic.
+void note_enclosed_areas(const Mosaic& mosaic, double gap, const Sample& sample, Notes& notes);
 
 }  // namespace lamella

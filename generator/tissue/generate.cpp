@@ -121,7 +121,10 @@ Sample make_packed_tissue(const Scene& scene, Notes& notes, const Progress& prog
   Mosaic mosaic = make_packed_mosaic(scene, notes, progress);
   if (progress) progress(0.8, "walls");
   vary_cells(mosaic, scene.sample, notes);
-  return make_tissue(mosaic, scene, notes);
+  Sample sample = make_tissue(mosaic, scene, notes);
+  if (scene.sample.areas && scene.sample.areas->of == "inset")
+    note_enclosed_areas(mosaic, scene.sample.walls.gap, sample, notes);
+  return sample;
 }
 
 Sample make_packed_rings(const Scene& scene, Notes& notes, const Progress& progress) {
