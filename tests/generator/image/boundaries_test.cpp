@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "generator/image/lattice_lines.h"
 #include "generator/sample/errors.h"
 #include "generator/tissue/crossings.h"
 #include "generator/tissue/mosaic.h"
@@ -226,6 +227,36 @@ TEST(Walls, of_noise_are_sound_at_every_tolerance_and_weld) {
   EXPECT_GT(cells, 1000);
   EXPECT_GT(refined, 100);
   EXPECT_GT(welded, 100);
+}
+
+TEST(Walls, that_are_welded_part_only_cells_whose_wall_is_shorter_than_the_weld) {
+  const double tolerance = 1, weld = 0.4;
+  int parted = 0;
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    const LabelImage labels = clean(wavy(90, 80, random_disks(20, 90, 80, 8, seed), 1.5), 6);
+    const Boundaries boundaries = trace_boundaries(labels);
+    double sum = 0;
+    int count = 0;
+    std::map<std::pair<Index, Index>, double> longest;
+    for (const BoundaryWall& wall : boundaries.walls) {
+      if (wall.left < 0 || wall.right < 0) continue;
+      const double length = length_of(simplified(wall.corner, tolerance));
+      double& known = longest[std::minmax(wall.left, wall.right)];
+      known = std::max(known, length);
+      sum += length;
+      ++count;
+    }
+    const SimplifiedWalls walls = simplify_walls(boundaries, tolerance, weld);
+    expect_sound(walls);
+    const Pairs now = neighbours_of(walls);
+    for (const auto& pair : now) EXPECT_TRUE(longest.contains(pair));
+    for (const auto& [pair, length] : longest) {
+      if (now.contains(pair)) continue;
+      ++parted;
+      EXPECT_LT(length, weld * sum / count);
+    }
+  }
+  EXPECT_GT(parted, 10);
 }
 
 TEST(Walls, shorter_than_the_weld_become_points_that_four_cells_share) {
