@@ -197,7 +197,7 @@ TEST(Walls, keep_neighbours_and_soundness_at_every_tolerance) {
 TEST(Walls, of_noise_are_sound_at_every_tolerance_and_weld) {
   std::mt19937 random(2);
   int cells = 0, refined = 0, welded = 0;
-  for (int repeat = 0; repeat < 400; ++repeat) {
+  for (int repeat = 0; repeat < 1500; ++repeat) {
     std::uniform_int_distribution<unsigned> number(repeat % 2, 2 + repeat % 7);
     LabelImage labels = labels_of(picture_of(16, 13, [&](int, int) { return number(random); }));
     try {
@@ -220,6 +220,8 @@ TEST(Walls, of_noise_are_sound_at_every_tolerance_and_weld) {
     if (full) {
       EXPECT_EQ(area, pixels);  // no gap, no overlap
     }
+    for (int y = 0; y < labels.height; ++y)
+      for (int x = 0; x < labels.width; ++x) ASSERT_LE(holders(walls, x, y).size(), 1u) << "cells overlap";
     cells += static_cast<int>(labels.number.size());
     refined += walls.refined;
     welded += walls.welded;
