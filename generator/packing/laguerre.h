@@ -1,6 +1,8 @@
 // The Laguerre-Voronoi tessellation of disks, clipped to a box: tile i holds the points p for which |p - x_i|^2 - r_i^2 is
-// smallest. Its topology comes from the triangulation (one vertex per triangle, per edge cut by a side, per corner of
-// the box), never from comparing coordinates, so every wall has exactly two sides whatever the rounding.
+// smallest. Its topology comes from the triangulation (one vertex for each circle orthogonal to three disks or more, for each
+// edge cut by a side, for each corner of the box), never from comparing coordinates, so every wall has exactly two sides whatever
+// the rounding. Where the box is periodic, in x, in y or in both, tiles are those of the infinite plane: whole, and out
+// over the sides of the box.
 #pragma once
 #include <vector>
 
@@ -38,11 +40,38 @@ enum class Hidden { kRefuse, kReport };
 struct LaguerreOptions {
   Duplicates duplicates = Duplicates::kRefuse;
   Hidden hidden = Hidden::kRefuse;
+  Periodic periodic{false, false};
 };
 
-/// Tessellates the box. Centres lie inside or on it. A periodic packing is tessellated as the disks it lists, without images.
+/// Tessellates the box. Centres lie inside or on it. Periodic: a tile lies where its site is; a vertex and all its images
+/// are one vertex, whose position may lie outside the box; a site may border its own images.
 /// Throws SceneError naming the disks: outside the box, not finite, duplicates, hidden.
 Tessellation tessellate(const std::vector<Disk>& disks, const Box& box, const LaguerreOptions& options = {});
+
+/// The same for weights [m2] in the place of squared radii: they may be negative, and only their differences matter.
+Tessellation tessellate(const std::vector<Vec2>& centres, const std::vector<double>& weights, const Box& box,
+                        const LaguerreOptions& options = {});
+
+/// A wall between the tiles of sites a and b.
+struct TileWall {
+  Index a = 0, b = 0;  // a < b, or, between a tile and its own image, a == b and image > {0, 0}
+  Image image{0, 0};   // tile a borders tile b as displaced by this
+  double length = 0;   // [m]
+};
+
+/// What optimal transport needs of a diagram.
+struct TileMeasures {
+  std::vector<double> area;  // per site [m2]; 0 for one without a tile
+  std::vector<Vec2>
+      centroid;  // per site [m]; without a tile: the site itself. Periodic: near its site, maybe outside the box
+  std::vector<TileWall> walls;
+};
+
+/// The measures of tessellate(centres, weights, ...) without its tiles, at less than its cost. Duplicates and hidden sites
+/// have no tile, which is no error here. Centres outside a periodic box stand for their images inside.
+/// Throws SceneError for numbers that are not finite, and for centres outside a side that is not periodic.
+TileMeasures measure_tiles(const std::vector<Vec2>& centres, const std::vector<double>& weights, const Box& box,
+                           Periodic periodic = {false, false});
 
 /// Where the k-th corner of a tile is [m].
 Vec2 corner(const Tessellation& tessellation, const Tile& tile, std::size_t k);
@@ -57,7 +86,7 @@ double edge_length(const Tessellation& tessellation, const Tile& tile, std::size
 double mean_edge_length(const Tessellation& tessellation);
 
 /// Every violated invariant in words (empty: all hold): areas sum to the box, each wall has two sides with the same two
-/// vertices, tiles are convex and counter-clockwise, V - E + F = 1, boundary vertices lie on their side.
+/// vertices, tiles are convex and counter-clockwise, V - E + F = 1 (periodic: 0), boundary vertices lie on their side.
 std::vector<std::string> check_tessellation(const Tessellation& tessellation);
 
 }  // namespace lamella

@@ -1,10 +1,10 @@
 // Measures and checks of a tessellation, however it was made.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
-#include <map>
-#include <set>
-#include <utility>
+#include <compare>
 
 #include "generator/packing/laguerre.h"
 
@@ -22,6 +22,83 @@ bool on_side(const Box& box, const Vec2& p, Index side) {
     default:
       return p.y() == box.hi.y();
   }
+}
+
+Image image_of(const std::vector<Image>& images, std::size_t k) { return images.empty() ? Image{0, 0} : images[k]; }
+
+bool periodic(const Tessellation& t) { return t.periodic[0] || t.periodic[1]; }
+
+void check_indices(const Tessellation& t, const Tile& tile, std::vector<std::string>& faults) {
+  const std::size_t n = tile.vertex.size(), images = periodic(t) ? n : 0;
+  if (n < 3 || tile.neighbour.size() != n || tile.image.size() != images || tile.across.size() != images)
+    faults.push_back(fmt::format("tile {}: {} vertices, {} neighbours and {} images of each", tile.site, n,
+                                 tile.neighbour.size(), std::min(tile.image.size(), tile.across.size())));
+  for (const Index v : tile.vertex)
+    if (v < 0 || v >= static_cast<Index>(t.vertices.size()))
+      faults.push_back(fmt::format("tile {}: no vertex {}", tile.site, v));
+}
+
+void check_shape(const Tessellation& t, const Tile& tile, std::vector<std::string>& faults) {
+  const double area = tile_area(t, tile);
+  if (!(area > 0)) faults.push_back(fmt::format("tile {}: area {}", tile.site, area));
+  // Shorter than this, directions are rounding.
+  const double scale2 = t.box.area() / static_cast<double>(t.tiles.size());
+  const std::size_t n = tile.vertex.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    const Vec2 u = corner(t, tile, k), v = corner(t, tile, (k + 1) % n), w = corner(t, tile, (k + 2) % n);
+    if (cross(v - u, w - v) < -1e-12 * scale2)
+      faults.push_back(fmt::format("tile {} is not convex at vertex {}", tile.site, tile.vertex[(k + 1) % n]));
+    if (tile.neighbour[k] < 0 && !(on_side(t.box, u, tile.neighbour[k]) && on_side(t.box, v, tile.neighbour[k])))
+      faults.push_back(fmt::format("tile {}: edge {} {} does not lie on its side of the box", tile.site, tile.vertex[k],
+                                   tile.vertex[(k + 1) % n]));
+  }
+}
+
+/// An edge as its tile sees it.
+struct EdgeSide {
+  Index tile, neighbour;
+  std::array<int, 2> across;
+  Index from, to;
+  std::array<int, 2> from_image, to_image;
+  auto operator<=>(const EdgeSide&) const = default;
+
+  /// The same edge as the neighbour sees it, whose tile lies where its own site is.
+  EdgeSide seen_from_across() const {
+    const auto minus = [&](const std::array<int, 2>& a) { return std::array{a[0] - across[0], a[1] - across[1]}; };
+    return {neighbour, tile, {-across[0], -across[1]}, to, from, minus(to_image), minus(from_image)};
+  }
+};
+
+/// Each wall has two sides with the same two vertices, and V - E + F is that of a disk, an annulus or a torus.
+void check_walls(const Tessellation& t, std::vector<std::string>& faults) {
+  const auto wide = [](const Image& image) { return std::array<int, 2>{image[0], image[1]}; };
+  std::vector<EdgeSide> sides;
+  std::vector<char> used(t.vertices.size(), 0);
+  Index boundary = 0;
+  for (const Tile& tile : t.tiles) {
+    const std::size_t n = tile.vertex.size();
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::size_t next = (k + 1) % n;
+      used[tile.vertex[k]] = 1;
+      if (tile.neighbour[k] < 0)
+        ++boundary;
+      else
+        sides.push_back({tile.site, tile.neighbour[k], wide(image_of(tile.across, k)), tile.vertex[k],
+                         tile.vertex[next], wide(image_of(tile.image, k)), wide(image_of(tile.image, next))});
+    }
+  }
+  std::sort(sides.begin(), sides.end());
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    if (i > 0 && sides[i] == sides[i - 1])
+      faults.push_back(fmt::format("tile {} has the edge {} {} twice", sides[i].tile, sides[i].from, sides[i].to));
+    if (!std::binary_search(sides.begin(), sides.end(), sides[i].seen_from_across()))
+      faults.push_back(fmt::format("the wall of tiles {} and {} has one side only", sides[i].tile, sides[i].neighbour));
+  }
+  const Index walls = static_cast<Index>(sides.size() / 2),
+              vertices = static_cast<Index>(std::count(used.begin(), used.end(), 1));
+  const Index euler = vertices - (walls + boundary) + static_cast<Index>(t.tiles.size());
+  if (euler != (periodic(t) ? 0 : 1))
+    faults.push_back(fmt::format("V - E + F = {} instead of {}", euler, periodic(t) ? 0 : 1));
 }
 
 }  // namespace
@@ -65,54 +142,14 @@ double mean_edge_length(const Tessellation& tessellation) {
 
 std::vector<std::string> check_tessellation(const Tessellation& tessellation) {
   std::vector<std::string> faults;
-  const Index vertices = static_cast<Index>(tessellation.vertices.size());
-  for (const Tile& tile : tessellation.tiles) {
-    if (tile.vertex.size() < 3 || tile.vertex.size() != tile.neighbour.size())
-      faults.push_back(
-          fmt::format("tile {}: {} vertices and {} neighbours", tile.site, tile.vertex.size(), tile.neighbour.size()));
-    for (const Index v : tile.vertex)
-      if (v < 0 || v >= vertices) faults.push_back(fmt::format("tile {}: no vertex {}", tile.site, v));
-  }
+  for (const Tile& tile : tessellation.tiles) check_indices(tessellation, tile, faults);
   if (!faults.empty()) return faults;
-
-  // Edges as (from, to): the tile on their left and what lies on their right.
-  std::map<std::pair<Index, Index>, std::pair<Index, Index>> edges;
-  std::set<Index> used;
   double sum = 0;
-  // Shorter than this, directions are rounding.
-  const double scale = std::sqrt(tessellation.box.area() / static_cast<double>(tessellation.tiles.size()));
   for (const Tile& tile : tessellation.tiles) {
-    const double area = tile_area(tessellation, tile);
-    sum += area;
-    if (!(area > 0)) faults.push_back(fmt::format("tile {}: area {}", tile.site, area));
-    const std::size_t n = tile.vertex.size();
-    for (std::size_t k = 0; k < n; ++k) {
-      const Index u = tile.vertex[k], v = tile.vertex[(k + 1) % n], w = tile.vertex[(k + 2) % n];
-      used.insert(u);
-      if (!edges.insert({{u, v}, {tile.site, tile.neighbour[k]}}).second)
-        faults.push_back(fmt::format("edge {} {} has two tiles on its left", u, v));
-      const auto& x = tessellation.vertices;
-      if (cross(x[v] - x[u], x[w] - x[v]) < -1e-12 * scale * scale)
-        faults.push_back(fmt::format("tile {} is not convex at vertex {}", tile.site, v));
-      if (tile.neighbour[k] < 0 &&
-          !(on_side(tessellation.box, x[u], tile.neighbour[k]) && on_side(tessellation.box, x[v], tile.neighbour[k])))
-        faults.push_back(fmt::format("tile {}: edge {} {} does not lie on its side of the box", tile.site, u, v));
-    }
+    sum += tile_area(tessellation, tile);
+    check_shape(tessellation, tile, faults);
   }
-  Index walls = 0, boundary = 0;
-  for (const auto& [ends, tiles] : edges) {
-    if (tiles.second < 0) {
-      ++boundary;
-      continue;
-    }
-    const auto twin = edges.find({ends.second, ends.first});
-    if (twin == edges.end() || twin->second != std::pair{tiles.second, tiles.first})
-      faults.push_back(fmt::format("the wall of tiles {} and {} has one side only", tiles.first, tiles.second));
-    ++walls;
-  }
-  const Index euler =
-      static_cast<Index>(used.size()) - (walls / 2 + boundary) + static_cast<Index>(tessellation.tiles.size());
-  if (euler != 1) faults.push_back(fmt::format("V - E + F = {} instead of 1", euler));
+  check_walls(tessellation, faults);
   const double area = tessellation.box.area();
   if (!(std::abs(sum - area) <= 1e-12 * area))
     faults.push_back(fmt::format("the areas sum to {:.17g} instead of {:.17g}", sum, area));

@@ -3,18 +3,26 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <queue>
+#include <tuple>
 
 namespace lamella {
 namespace {
 
+Image minus(const Image& a, const Image& b) {
+  return {static_cast<std::int8_t>(a[0] - b[0]), static_cast<std::int8_t>(a[1] - b[1])};
+}
+
 class Welder {
  public:
   explicit Welder(Tessellation& t)
-      : t_(t), tiles_of_(t.vertices.size()), sides_(t.vertices.size(), 0), version_(t.vertices.size(), 0) {
+      : t_(t),
+        periodic_(t.periodic[0] || t.periodic[1]),
+        tiles_of_(t.vertices.size()),
+        sides_(t.vertices.size(), 0),
+        version_(t.vertices.size(), 0) {
     const double area = t.box.area() / static_cast<double>(std::max<std::size_t>(1, t.tiles.size()));
     tolerance_ = 1e-12 * area;
     for (Index k = 0; k < static_cast<Index>(t.tiles.size()); ++k) {
@@ -28,23 +36,18 @@ class Welder {
   }
 
   int weld(double threshold) {
-    for (const Tile& tile : t_.tiles)
-      for (std::size_t e = 0; e < tile.vertex.size(); ++e)
-        queue(tile.vertex[e], tile.vertex[(e + 1) % tile.vertex.size()], threshold);
+    for (const Tile& tile : t_.tiles) queue_edges(tile, threshold);
     int welded = 0;
     while (!short_edges_.empty()) {
       const Candidate edge = short_edges_.top();
       short_edges_.pop();
-      if (edge.version != version(edge.a, edge.b) || !joined(edge.a, edge.b)) continue;
-      if (!collapse(edge.a, edge.b)) {
+      if (edge.version != version(edge.a, edge.b) || !joined(edge)) continue;
+      if (!collapse(edge)) {
         left_.push_back(edge);
         continue;
       }
       ++welded;
-      for (const Index k : tiles_of_[edge.a]) {
-        const auto& vertex = t_.tiles[k].vertex;
-        for (std::size_t e = 0; e < vertex.size(); ++e) queue(vertex[e], vertex[(e + 1) % vertex.size()], threshold);
-      }
+      for (const Index k : tiles_of_[edge.a]) queue_edges(t_.tiles[k], threshold);
     }
     drop_unused_vertices();
     return welded;
@@ -54,41 +57,60 @@ class Welder {
   std::vector<std::string> left_over() const { return left_notes_; }
 
  private:
-  struct Candidate {
-    double length;
+  /// An edge from vertex a to vertex b as displaced by `image`.
+  struct Edge {
     Index a, b;
+    Image image;
+  };
+  struct Candidate : Edge {
+    double length;
     long version;
     bool operator<(const Candidate& other) const {  // the queue's top is its largest: shortest first, then by vertex
-      return std::array{length, double(a), double(b)} > std::array{other.length, double(other.a), double(other.b)};
+      return std::tie(length, a, b, image) > std::tie(other.length, other.a, other.b, other.image);
     }
   };
 
   static std::uint8_t bit(Index side) { return static_cast<std::uint8_t>(1 << (-1 - side)); }
   long version(Index a, Index b) const { return version_[a] + version_[b]; }
 
-  void queue(Index a, Index b, double threshold) {
-    if (a > b) std::swap(a, b);
-    const double length = (t_.vertices[a] - t_.vertices[b]).norm();
-    if (length <= threshold) short_edges_.push({length, a, b, version(a, b)});
+  /// The e-th edge of a tile, from its vertex of lower index.
+  Edge edge_of(const Tile& tile, std::size_t e) const {
+    const std::size_t f = next(tile, e);
+    Edge edge{tile.vertex[e], tile.vertex[f], {0, 0}};
+    if (periodic_) edge.image = minus(tile.image[f], tile.image[e]);
+    if (edge.a > edge.b) edge = {edge.b, edge.a, minus({0, 0}, edge.image)};
+    return edge;
+  }
+
+  Vec2 end_of(const Edge& edge) const { return t_.vertices[edge.b] + displacement(edge.image, t_.box); }
+
+  void queue_edges(const Tile& tile, double threshold) {
+    for (std::size_t e = 0; e < tile.vertex.size(); ++e) {
+      const Edge edge = edge_of(tile, e);
+      const double length = (end_of(edge) - t_.vertices[edge.a]).norm();
+      // An edge from a vertex to its own image goes round the box.
+      if (length <= threshold && edge.a != edge.b) short_edges_.push({edge, length, version(edge.a, edge.b)});
+    }
   }
 
   static std::size_t next(const Tile& tile, std::size_t e) { return (e + 1) % tile.vertex.size(); }
 
-  bool joined(Index a, Index b) const {
-    return std::any_of(tiles_of_[a].begin(), tiles_of_[a].end(), [&](Index k) {
+  bool joined(const Edge& edge) const {
+    return std::any_of(tiles_of_[edge.a].begin(), tiles_of_[edge.a].end(), [&](Index k) {
       const Tile& tile = t_.tiles[k];
-      for (std::size_t e = 0; e < tile.vertex.size(); ++e)
-        if ((tile.vertex[e] == a && tile.vertex[next(tile, e)] == b) ||
-            (tile.vertex[e] == b && tile.vertex[next(tile, e)] == a))
-          return true;
+      for (std::size_t e = 0; e < tile.vertex.size(); ++e) {
+        const Edge here = edge_of(tile, e);
+        if (here.a == edge.a && here.b == edge.b && here.image == edge.image) return true;
+      }
       return false;
     });
   }
 
   /// Where the welded point may lie, best first: in the middle, or, if that bends a tile, elsewhere on the edge. On the
   /// boundary of the box only what keeps to it.
-  std::vector<Vec2> places(Index a, Index b) const {
-    const Vec2 p = t_.vertices[a], q = t_.vertices[b];
+  std::vector<Vec2> places(const Edge& edge) const {
+    const Index a = edge.a, b = edge.b;
+    const Vec2 p = t_.vertices[a], q = end_of(edge);
     std::vector<Vec2> result;
     for (const double s : {0.5, 0.4, 0.6, 0.25, 0.75, 0.0, 1.0}) result.push_back(p + s * (q - p));
     const auto both = static_cast<std::uint8_t>(sides_[a] | sides_[b]);
@@ -110,7 +132,8 @@ class Welder {
     return both == sides_[a] || both == sides_[b];
   }
 
-  bool collapse(Index a, Index b) {
+  bool collapse(const Edge& edge) {
+    const Index a = edge.a, b = edge.b;
     if (!sides_allow(a, b)) return false;
     std::vector<Index> touched = tiles_of_[a];
     touched.insert(touched.end(), tiles_of_[b].begin(), tiles_of_[b].end());
@@ -119,11 +142,11 @@ class Welder {
     std::vector<Tile> after;
     for (const Index k : touched) {
       Tile tile = t_.tiles[k];
-      if (!merge(tile, a, b)) return false;
+      if (!merge(tile, edge)) return false;
       after.push_back(std::move(tile));
     }
     const Vec2 before = t_.vertices[a];
-    for (const Vec2& at : places(a, b)) {
+    for (const Vec2& at : places(edge)) {
       t_.vertices[a] = at;
       if (!std::all_of(after.begin(), after.end(), [&](const Tile& tile) { return convex(tile); })) continue;
       for (std::size_t i = 0; i < touched.size(); ++i) t_.tiles[touched[i]] = std::move(after[i]);
@@ -137,23 +160,43 @@ class Welder {
     return false;
   }
 
-  /// b becomes a. False when the tile would lose its area, or touch itself.
-  static bool merge(Tile& tile, Index a, Index b) {
-    std::replace(tile.vertex.begin(), tile.vertex.end(), b, a);
+  /// b, as displaced by the edge's image, becomes a. False when the tile would lose its area, or touch itself.
+  bool merge(Tile& tile, const Edge& edge) const {
     for (std::size_t e = 0; e < tile.vertex.size(); ++e) {
-      if (tile.vertex[e] != a || tile.vertex[next(tile, e)] != a) continue;
-      tile.vertex.erase(tile.vertex.begin() + static_cast<std::ptrdiff_t>(e));
-      tile.neighbour.erase(tile.neighbour.begin() + static_cast<std::ptrdiff_t>(e));
-      break;
+      if (tile.vertex[e] != edge.b) continue;
+      tile.vertex[e] = edge.a;
+      if (periodic_) tile.image[e] = minus(tile.image[e], edge.image);
     }
-    return tile.vertex.size() >= 3 && std::count(tile.vertex.begin(), tile.vertex.end(), a) == 1;
+    for (std::size_t e = 0; e < tile.vertex.size() && tile.vertex.size() >= 3;) {
+      if (tile.vertex[e] == edge.a && same_corner(tile, e, next(tile, e)))
+        erase(tile, e);
+      else
+        ++e;
+    }
+    if (tile.vertex.size() < 3) return false;
+    for (std::size_t e = 0; e < tile.vertex.size(); ++e)
+      for (std::size_t f = 0; f < e; ++f)
+        if (tile.vertex[e] == edge.a && same_corner(tile, e, f)) return false;
+    return true;
+  }
+
+  bool same_corner(const Tile& tile, std::size_t e, std::size_t f) const {
+    return tile.vertex[e] == tile.vertex[f] && (!periodic_ || tile.image[e] == tile.image[f]);
+  }
+
+  void erase(Tile& tile, std::size_t e) const {
+    const auto at = static_cast<std::ptrdiff_t>(e);
+    tile.vertex.erase(tile.vertex.begin() + at);
+    tile.neighbour.erase(tile.neighbour.begin() + at);
+    if (!periodic_) return;
+    tile.image.erase(tile.image.begin() + at);
+    tile.across.erase(tile.across.begin() + at);
   }
 
   bool convex(const Tile& tile) const {
-    const auto& x = t_.vertices;
     for (std::size_t e = 0; e < tile.vertex.size(); ++e) {
-      const Vec2 &p = x[tile.vertex[e]], &q = x[tile.vertex[next(tile, e)]],
-                 &r = x[tile.vertex[(e + 2) % tile.vertex.size()]];
+      const Vec2 p = corner(t_, tile, e), q = corner(t_, tile, next(tile, e)),
+                 r = corner(t_, tile, (e + 2) % tile.vertex.size());
       if (cross(q - p, r - q) < -tolerance_) return false;
     }
     return tile_area(t_, tile) > tolerance_;
@@ -161,7 +204,7 @@ class Welder {
 
   void drop_unused_vertices() {
     for (const Candidate& edge : left_) {
-      if (edge.version != version(edge.a, edge.b) || !joined(edge.a, edge.b)) continue;
+      if (edge.version != version(edge.a, edge.b) || !joined(edge)) continue;
       const Vec2 at = t_.vertices[edge.a];
       left_notes_.push_back(
           fmt::format("the edge at ({:.6g}, {:.6g}), {:.3g} m long, stays: welding it would bend or remove a tile",
@@ -180,6 +223,7 @@ class Welder {
   }
 
   Tessellation& t_;
+  const bool periodic_;
   std::vector<std::vector<Index>> tiles_of_;  // by position in Tessellation::tiles
   std::vector<std::uint8_t> sides_;           // of the box that a vertex lies on
   std::vector<long> version_;                 // grows whenever a vertex moves

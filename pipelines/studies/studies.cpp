@@ -17,6 +17,7 @@ void study_friction(StudyBench& bench);
 void study_breakable_walls(StudyBench& bench);
 void study_free_vibration(StudyBench& bench);
 void study_hard_cases(StudyBench& bench);
+void study_poisson_voronoi(StudyBench& bench);
 
 const std::vector<Study>& studies() {
   static const std::vector<Study> all{
@@ -53,6 +54,8 @@ const std::vector<Study>& studies() {
        study_free_vibration},
       {"hard_cases", "Does each of the cases in which such codes fail come out right, or stop and say why?",
        study_hard_cases},
+      {"poisson_voronoi", "Do the tiles of a million random points have the moments that are known of such tilings?",
+       study_poisson_voronoi},
   };
   return all;
 }

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "generator/sample/errors.h"
+#include "half_planes.h"
 #include "random_disks.h"
 
 namespace lamella {
@@ -19,35 +20,6 @@ using testing::IsEmpty;
 
 const Box kUnit{{0, 0}, {1, 1}};
 
-/// Oracle: the box cut by every other disk's half-plane, in coordinates about the site.
-std::vector<Vec2> brute_force_tile(const std::vector<Disk>& disks, const Box& box, std::size_t i) {
-  const Vec2 o = disks[i].centre;
-  std::vector<Vec2> polygon = {box.lo - o, Vec2(box.hi.x(), box.lo.y()) - o, box.hi - o,
-                               Vec2(box.lo.x(), box.hi.y()) - o};
-  for (std::size_t j = 0; j < disks.size() && !polygon.empty(); ++j) {
-    if (j == i) continue;
-    const Vec2 d = disks[j].centre - o;
-    const double limit = (d.squaredNorm() + disks[i].radius * disks[i].radius - disks[j].radius * disks[j].radius) / 2;
-    std::vector<Vec2> kept;
-    for (std::size_t k = 0; k < polygon.size(); ++k) {
-      const Vec2 p = polygon[k], q = polygon[(k + 1) % polygon.size()];
-      const double sp = d.dot(p) - limit, sq = d.dot(q) - limit;
-      if (sp <= 0) kept.push_back(p);
-      if ((sp < 0 && sq > 0) || (sp > 0 && sq < 0)) kept.push_back(p + (q - p) * (sp / (sp - sq)));
-    }
-    polygon = kept;
-  }
-  return polygon;
-}
-
-double brute_force_area(const std::vector<Disk>& disks, const Box& box, std::size_t i) {
-  const auto polygon = brute_force_tile(disks, box, i);
-  double twice = 0;
-  for (std::size_t k = 1; k + 1 < polygon.size(); ++k)
-    twice += cross(polygon[k] - polygon[0], polygon[k + 1] - polygon[0]);
-  return twice / 2;
-}
-
 /// All invariants, the hidden sites and every area, against brute force.
 void expect_right(const std::vector<Disk>& disks, const Box& box) {
   const Tessellation t = tessellate(disks, box, {.hidden = Hidden::kReport});
@@ -55,7 +27,7 @@ void expect_right(const std::vector<Disk>& disks, const Box& box) {
   std::vector<Index> hidden;
   std::size_t next = 0;
   for (std::size_t i = 0; i < disks.size(); ++i) {
-    const double area = brute_force_area(disks, box, i);
+    const double area = polygon_area(half_plane_tile(disks, box, {false, false}, i));
     if (area <= 1e-15 * box.area()) {
       hidden.push_back(static_cast<Index>(i));
       continue;
@@ -101,6 +73,7 @@ TEST(laguerre, agrees_with_cutting_the_box_by_every_half_plane) {
 
 TEST(laguerre, finds_the_disks_that_overlapping_ones_hide) {
   for (unsigned seed = 0; seed < 5; ++seed) expect_right(random_disks(500, 0.1, seed), kUnit);
+  expect_right(random_disks(1000, 0.05, 9), kUnit);
 }
 
 TEST(laguerre, few_large_disks_may_own_several_corners_or_push_tiles_out_of_the_box) {
@@ -114,6 +87,16 @@ TEST(laguerre, one_large_disk_among_two_thousand_times_smaller_ones) {
   std::vector<Disk> disks = random_disks(600, 1e-4, 3);
   disks.push_back({{0.5, 0.5}, 0.2});
   expect_right(disks, kUnit);
+}
+
+TEST(laguerre, one_to_four_disks_on_one_line) {
+  for (int count = 1; count <= 4; ++count) {
+    for (const Vec2& way : {Vec2(1, 0), Vec2(0, 1), Vec2(1, 1), Vec2(-0.3, 0.9)}) {
+      std::vector<Disk> disks;
+      for (int i = 0; i < count; ++i) disks.push_back({Vec2(0.5, 0.5) + (i - 0.8) / 8 * way, 0.01 * i});
+      expect_right(disks, kUnit);
+    }
+  }
 }
 
 TEST(laguerre, disks_on_one_line_make_strips) {
@@ -152,7 +135,11 @@ TEST(laguerre, a_square_lattice_keeps_its_invariants_though_four_disks_are_cocir
   for (const int n : {2, 3, 30, 32}) {
     const Tessellation t = tessellate(grid(n, n, 0), kUnit);
     EXPECT_THAT(check_tessellation(t), IsEmpty());
-    for (const Tile& tile : t.tiles) EXPECT_NEAR(tile_area(t, tile), 1.0 / (n * n), 1e-14);
+    EXPECT_EQ(t.vertices.size(), static_cast<std::size_t>((n + 1) * (n + 1)));  // four tiles at each inner one
+    for (const Tile& tile : t.tiles) {
+      EXPECT_EQ(tile.vertex.size(), 4u);
+      EXPECT_NEAR(tile_area(t, tile), 1.0 / (n * n), 1e-14);
+    }
   }
 }
 
@@ -229,6 +216,31 @@ TEST(laguerre, the_same_disks_in_another_order_give_the_same_tiles) {
   }
 }
 
+TEST(laguerre, a_quarter_turn_turns_the_tiles) {
+  const auto disks = random_disks(400, 0.02, 8);
+  for (const Periodic periodic : {Periodic{false, false}, Periodic{true, false}, Periodic{true, true}}) {
+    auto turned = disks;
+    for (Disk& disk : turned) disk.centre = left_of(disk.centre);
+    const Tessellation t = tessellate(disks, kUnit, {.hidden = Hidden::kReport, .periodic = periodic}),
+                       u = tessellate(turned, {{-1, 0}, {0, 1}},
+                                      {.hidden = Hidden::kReport, .periodic = {periodic[1], periodic[0]}});
+    EXPECT_EQ(t.hidden, u.hidden);
+    ASSERT_EQ(t.tiles.size(), u.tiles.size());
+    for (std::size_t i = 0; i < t.tiles.size(); ++i) {
+      std::multiset<Index> a, b;
+      for (const Index n : t.tiles[i].neighbour)
+        a.insert(n == kLeftSide     ? kBottomSide
+                 : n == kBottomSide ? kRightSide
+                 : n == kRightSide  ? kTopSide
+                 : n == kTopSide    ? kLeftSide
+                                    : n);
+      b.insert(u.tiles[i].neighbour.begin(), u.tiles[i].neighbour.end());
+      EXPECT_EQ(a, b);
+      EXPECT_NEAR(tile_area(t, t.tiles[i]), tile_area(u, u.tiles[i]), 1e-13);
+    }
+  }
+}
+
 std::string message_of(const std::vector<Disk>& disks, const Box& box, const LaguerreOptions& options = {}) {
   try {
     tessellate(disks, box, options);
@@ -250,18 +262,46 @@ TEST(laguerre, refuses_by_name_what_has_no_tile) {
 }
 
 TEST(laguerre, duplicates_are_named_or_the_first_is_kept) {
-  auto disks = random_disks(100, 0.01, 9);
-  disks.push_back(disks[17]);
+  auto disks = random_disks(1013, 0.001, 9);
+  std::vector<Index> later;
+  for (int k = 0; k < 11; ++k) {
+    later.push_back(static_cast<Index>(disks.size()));
+    disks.push_back(disks[17 + 90 * k]);
+  }
   EXPECT_THAT(message_of(disks, kUnit), HasSubstr("is the same as disk 17"));
-  const Tessellation t = tessellate(disks, kUnit, {.duplicates = Duplicates::kKeepFirst});
-  EXPECT_THAT(t.hidden, ElementsAre(100));
-  EXPECT_THAT(check_tessellation(t), IsEmpty());
+  for (const Periodic periodic : {Periodic{false, false}, Periodic{true, false}, Periodic{true, true}}) {
+    const Tessellation t = tessellate(disks, kUnit, {.duplicates = Duplicates::kKeepFirst, .periodic = periodic});
+    EXPECT_EQ(t.hidden, later);
+    EXPECT_THAT(check_tessellation(t), IsEmpty());
+  }
+}
+
+TEST(laguerre, all_but_one_of_many_copies_are_left_out) {
+  const std::vector<Disk> disks(20, {{0.25, 0.5}, 0.1});
+  for (const Periodic periodic : {Periodic{false, false}, Periodic{false, true}, Periodic{true, true}}) {
+    const Tessellation t = tessellate(disks, kUnit, {.duplicates = Duplicates::kKeepFirst, .periodic = periodic});
+    EXPECT_THAT(t.hidden, testing::SizeIs(19));
+    ASSERT_THAT(t.tiles, testing::SizeIs(1));
+    EXPECT_EQ(t.tiles[0].site, 0);
+    EXPECT_THAT(check_tessellation(t), IsEmpty());
+  }
 }
 
 TEST(laguerre, the_smaller_of_two_disks_with_one_centre_is_hidden) {
-  auto disks = random_disks(50, 0.01, 9);
-  disks.push_back({disks[3].centre, 0.02});
-  EXPECT_THAT(tessellate(disks, kUnit, {.hidden = Hidden::kReport}).hidden, ElementsAre(3));
+  auto disks = random_disks(500, 0.001, 9);
+  std::vector<Index> smaller;
+  for (Index k = 0; k < 100; ++k) {
+    smaller.push_back(5 * k);
+    disks.push_back({disks[5 * k].centre, 0.002});
+  }
+  for (const Periodic periodic : {Periodic{false, false}, Periodic{true, true}})
+    EXPECT_EQ(tessellate(disks, kUnit, {.hidden = Hidden::kReport, .periodic = periodic}).hidden, smaller);
+}
+
+TEST(laguerre, refuses_boxes_whose_areas_are_beyond_the_numbers) {
+  EXPECT_THAT(message_of({{{0, 0}, 1}}, {{0, 0}, {1e-80, 1e-80}}), HasSubstr("from 1e-60 to 1e60 m"));
+  EXPECT_THAT(message_of({{{0, 0}, 1}}, {{0, 0}, {1e80, 1}}), HasSubstr("from 1e-60 to 1e60 m"));
+  EXPECT_THAT(message_of({{{0.5, 0.5}, 1e200}}, kUnit), HasSubstr("disk 0"));
 }
 
 }  // namespace

@@ -59,21 +59,64 @@ TEST(weld, each_welded_edge_removes_one_vertex) {
   EXPECT_EQ(t.vertices.size(), before - static_cast<std::size_t>(welded));
 }
 
-TEST(weld, four_tiles_of_a_square_lattice_meet_at_each_vertex) {
+TEST(weld, four_tiles_of_a_square_lattice_meet_at_each_vertex_though_its_sites_are_a_little_off) {
   const int n = 30;
-  std::vector<Disk> disks;
-  for (int row = 0; row < n; ++row)
-    for (int column = 0; column < n; ++column) disks.push_back({{(column + 0.5) / n, (row + 0.5) / n}, 0.3 / n});
-  Tessellation t = tessellate(disks, kUnit);
-  EXPECT_EQ(weld_short_edges(t, 1e-9 / n), (n - 1) * (n - 1));
-  EXPECT_THAT(check_tessellation(t), IsEmpty());
-  std::map<Index, int> tiles_at;
-  for (const Tile& tile : t.tiles) {
-    EXPECT_THAT(tile.vertex, SizeIs(4));
-    for (const Index v : tile.vertex) ++tiles_at[v];
+  for (const double off : {0.0, 1e-16, 1e-13}) {
+    for (const Periodic periodic :
+         {Periodic{false, false}, Periodic{true, false}, Periodic{false, true}, Periodic{true, true}}) {
+      SCOPED_TRACE(testing::Message() << off << " " << periodic[0] << periodic[1]);
+      Numbers numbers(3);
+      std::vector<Disk> disks;
+      for (int row = 0; row < n; ++row)
+        for (int column = 0; column < n; ++column) {
+          const double x = numbers.between(-off, off), y = numbers.between(-off, off);
+          disks.push_back({{(column + 0.5) / n + x, (row + 0.5) / n + y}, 0.3 / n});
+        }
+      Tessellation t = tessellate(disks, kUnit, {.periodic = periodic});
+      EXPECT_THAT(check_tessellation(t), IsEmpty());
+      weld_short_edges(t, 1e-9 / n);
+      EXPECT_THAT(check_tessellation(t), IsEmpty());
+      std::map<Index, int> tiles_at;
+      for (const Tile& tile : t.tiles) {
+        EXPECT_THAT(tile.vertex, SizeIs(4));
+        EXPECT_NEAR(tile_area(t, tile) * n * n, 1, 1e-9);
+        for (const Index v : tile.vertex) ++tiles_at[v];
+      }
+      const int columns = periodic[0] ? n : n - 1, rows = periodic[1] ? n : n - 1;
+      EXPECT_EQ(std::count_if(tiles_at.begin(), tiles_at.end(), [](const auto& entry) { return entry.second == 4; }),
+                columns * rows);
+    }
   }
-  EXPECT_EQ(std::count_if(tiles_at.begin(), tiles_at.end(), [](const auto& entry) { return entry.second == 4; }),
-            (n - 1) * (n - 1));
+}
+
+TEST(weld, on_the_torus_nothing_is_shorter_than_the_threshold_afterwards_and_all_invariants_hold) {
+  for (const Periodic periodic : {Periodic{true, false}, Periodic{false, true}, Periodic{true, true}}) {
+    for (unsigned seed = 0; seed < 5; ++seed) {
+      Tessellation t = tessellate(apart_disks(300, 0.3, 0.5, true, seed), kUnit, {.periodic = periodic});
+      const double threshold = 0.1 * mean_edge_length(t);
+      const std::size_t before = t.vertices.size();
+      std::vector<std::string> notes;
+      const int welded = weld_short_edges(t, threshold, &notes);
+      EXPECT_GT(welded, 0);
+      EXPECT_EQ(t.vertices.size(), before - static_cast<std::size_t>(welded));
+      EXPECT_THAT(check_tessellation(t), IsEmpty());
+      EXPECT_THAT(notes, SizeIs(1));
+      EXPECT_GT(shortest_edge(t), threshold);
+    }
+  }
+}
+
+TEST(weld, a_torus_of_few_tiles_stays_one_whatever_the_threshold) {
+  for (int count = 1; count <= 6; ++count)
+    for (unsigned seed = 0; seed < 50; ++seed)
+      for (const Periodic periodic : {Periodic{true, false}, Periodic{true, true}}) {
+        Tessellation t =
+            tessellate(random_disks(count, 0.1, seed), kUnit, {.hidden = Hidden::kReport, .periodic = periodic});
+        const std::size_t tiles = t.tiles.size();
+        weld_short_edges(t, 0.5);
+        EXPECT_EQ(t.tiles.size(), tiles);
+        EXPECT_THAT(check_tessellation(t), IsEmpty()) << count << " disks, seed " << seed;
+      }
 }
 
 TEST(weld, a_threshold_of_zero_welds_only_edges_of_no_length) {
