@@ -51,7 +51,7 @@ void note_fit(const LaguerreFit& fit, const Tessellation& tessellation, const La
               Notes& notes) {
   notes.push_back(
       fmt::format("the closest Laguerre tessellation: {:.2f} % of the pixels lie in the tile of their cell; "
-                  "walls are {:.2g} pixels from the boundary of the pixels (root mean square)",
+                  "walls are {:.2f} pixels from the boundary of the pixels (root mean square)",
                   100 * agreement(tessellation, labels, cells), fit.rms));
   std::vector<std::string> lost;
   for (const Index site : tessellation.hidden)

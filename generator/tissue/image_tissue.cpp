@@ -203,6 +203,7 @@ Mosaic make_image_mosaic(const Scene& scene, Notes& notes, const ImageProgress& 
   if (labels.number.empty())
     throw SceneError(fmt::format("{}: no cells are left that have at least sample.image.least_area = {} pixels",
                                  path.string(), image.least_area));
+  notes.push_back(fmt::format("{} x {} pixels: {} cells", labels.width, labels.height, labels.number.size()));
   Mosaic mosaic;
   if (image.cells == "laguerre") {
     mosaic = make_laguerre_mosaic(labels, image.pixel, scene.sample.walls.weld, notes,
@@ -212,10 +213,10 @@ Mosaic make_image_mosaic(const Scene& scene, Notes& notes, const ImageProgress& 
   }
   tell(0.7, "boundaries");
   const SimplifiedWalls walls = simplify_walls(trace_boundaries(labels), image.simplify, scene.sample.walls.weld);
-  notes.push_back(
-      fmt::format("{} x {} pixels: {} cells; {} short walls are welded to a point, {} walls keep more of "
-                  "their pixels than simplify asks, so that cells do not overlap",
-                  labels.width, labels.height, labels.number.size(), walls.welded, walls.refined));
+  if (walls.welded > 0) notes.push_back(fmt::format("{} short walls are welded to a point", walls.welded));
+  if (walls.refined > 0)
+    notes.push_back(fmt::format("{} walls keep more of their pixels than simplify asks, so that cells do not overlap",
+                                walls.refined));
   mosaic = mosaic_of(walls, labels, image.pixel);
   finish(mosaic, image.pixel);
   return mosaic;

@@ -161,6 +161,11 @@ TEST(Cleaning, joins_small_cells_to_the_neighbour_with_the_longest_common_bounda
   EXPECT_THAT(done.small, ElementsAre(4u, 3u));
 }
 
+TEST(Cleaning, keeps_a_small_cell_that_has_grown_enough_by_another) {
+  EXPECT_THAT(cleaned({"11", "11", "11", "23", "23", "23", "23"}, 6),
+              ElementsAre("11", "11", "11", "33", "33", "33", "33"));
+}
+
 TEST(Cleaning, gives_specks_in_the_background_to_it_and_small_gaps_to_cells) {
   Cleaning done;
   EXPECT_THAT(cleaned({"1111....", "1..1..2.", "1111....", "1111...."}, 3, &done),
@@ -261,6 +266,7 @@ TEST(Cleaning, changes_nothing_where_nothing_is_wrong) {
   const LabelImage before = labels;
   const Cleaning done = clean_labels(labels, 1);
   EXPECT_THAT(done.scattered, IsEmpty());
+  EXPECT_THAT(done.filled, IsEmpty());
   EXPECT_EQ(labels.cell, before.cell);
   EXPECT_EQ(labels.number, before.number);
 }

@@ -119,10 +119,10 @@ TEST(Segmentation, parts_cells_at_a_constriction_where_their_wall_has_a_hole) {
   EXPECT_EQ(segment(two_rooms(12), {}).labels.number.size(), 1u);
 }
 
-TEST(Segmentation, does_not_cut_a_long_cell_of_even_width) {
+TEST(Segmentation, does_not_cut_a_long_cell_where_it_is_a_quarter_narrower) {
   const Picture picture = picture_of(200, 30, [&](int x, int y) {
     const double middle = 15 + 6 * std::sin(x / 25.0);
-    return std::abs(y - middle) < 6 && x > 3 && x < 196 ? 240u : 10u;
+    return std::abs(y - middle) < 8 + std::cos(x / 12.0) && x > 3 && x < 196 ? 240u : 10u;
   });
   EXPECT_EQ(segment(picture, {}).labels.number.size(), 1u);
 }
