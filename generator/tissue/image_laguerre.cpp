@@ -68,14 +68,14 @@ Mosaic make_laguerre_mosaic(LabelImage labels, double pixel, double weld, Notes&
   const Box picture{Vec2::Zero(), Vec2(labels.width, labels.height)};
   Tessellation tessellation = tessellate(fit.disks, picture, {Duplicates::kKeepFirst, Hidden::kReport});
   note_fit(fit, tessellation, labels, cells, notes);
+  tessellation.box.hi *= pixel;
+  for (Vec2& vertex : tessellation.vertices) vertex *= pixel;
   weld_short_edges(tessellation, std::max(weld, 1e-9) * mean_edge_length(tessellation), &notes);
   Mosaic mosaic = mosaic_of(tessellation);
   std::size_t kept = 0;
   for (std::size_t t = 0; t < tessellation.tiles.size() && tessellation.tiles[t].site < cells; ++t, ++kept)
     mosaic.cells[t].name = fmt::format("label {}", labels.number[tessellation.tiles[t].site]);
   mosaic.cells.resize(kept);
-  mosaic.box.hi *= pixel;
-  for (Vec2& vertex : mosaic.vertices) vertex *= pixel;
   return mosaic;
 }
 

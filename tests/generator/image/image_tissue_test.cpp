@@ -163,6 +163,11 @@ TEST_F(ImageTissue, as_a_laguerre_tessellation_is_convex_and_close) {
     for (Index k = sample.cell_begin[c]; k < sample.cell_begin[c + 1]; ++k) EXPECT_GE(sample.rest_angle[k], -1e-9);
 }
 
+TEST_F(ImageTissue, as_a_laguerre_tessellation_is_welded_in_metres) {
+  sample_of(tissue_picture(), "image.least_area = 60\nimage.cells = \"laguerre\"\nwalls.weld = 0.3");
+  EXPECT_THAT(notes, Contains(::testing::ContainsRegex("edges of at most [0-9.]+e-06 m welded")));
+}
+
 TEST_F(ImageTissue, as_a_laguerre_tessellation_leaves_out_the_background) {
   const auto disks = random_disks(40, 160, 160, 10, 3);
   const Picture picture = picture_of(160, 160, [&](int x, int y) {
