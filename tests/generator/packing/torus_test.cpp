@@ -207,7 +207,7 @@ TEST(torus, sites_and_weights_on_coarse_grids_agree_with_half_planes) {
     std::vector<Disk> disks;
     for (int i = 0; i < count; ++i) {
       const double x = std::floor(numbers.between(0, grid + 0.999)), y = std::floor(numbers.between(0, grid + 0.999));
-      disks.push_back({Vec2(x, y) / grid, std::floor(numbers.between(0, weights)) / grid});
+      disks.push_back({Vec2(x, y) / grid, (1 + std::floor(numbers.between(0, weights))) / grid});
     }
     for (const Periodic& periodic : {Periodic{false, false}, kX, kY, kBoth}) {
       SCOPED_TRACE(testing::Message() << "seed " << seed << ", periodic " << periodic[0] << periodic[1]);
