@@ -123,7 +123,7 @@ CellAreas tessellate_with_areas(const Packing& packing, const AreasScene& scene,
   notes.push_back(fmt::format(
       "areas of {} {} as prescribed to within {:.2g}, {:.6g} m2 together: {} Newton iterations, {} diagrams{}",
       areas.size(), insets ? "insets" : "tiles", largest_error(areas, result.shares), sum, search.iterations,
-      search.diagrams, scene.sweeps > 0 ? fmt::format(", {} sweeps", scene.sweeps) : ""));
+      search.diagrams, scene.sweeps > 0 ? fmt::format(", {} sweep{}", scene.sweeps, scene.sweeps > 1 ? "s" : "") : ""));
   return result;
 }
 
