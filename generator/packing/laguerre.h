@@ -1,7 +1,8 @@
 // The Laguerre-Voronoi tessellation of disks, clipped to a box: tile i holds the points p for which |p - x_i|^2 - r_i^2 is
-// smallest. Its topology comes from the triangulation (one vertex per triangle, per edge cut by a side, per corner of
-// the box), never from comparing coordinates, so every wall has exactly two sides whatever the rounding. Where the box is
-// periodic, in x, in y or in both, tiles are those of the infinite plane: whole, and out over the sides of the box.
+// smallest. Its topology comes from the triangulation (one vertex for each circle orthogonal to three disks or more, for each
+// edge cut by a side, for each corner of the box), never from comparing coordinates, so every wall has exactly two sides whatever
+// the rounding. Where the box is periodic, in x, in y or in both, tiles are those of the infinite plane: whole, and out
+// over the sides of the box.
 #pragma once
 #include <vector>
 

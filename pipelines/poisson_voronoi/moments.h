@@ -34,14 +34,14 @@ inline std::vector<Moment> poisson_voronoi_moments(const Tessellation& t) {
       l1 += length / (6 * count), l2 += length * length / (6 * count);
       neighbours += sides[tile.neighbour[k]];
     }
-    n1 += n / count, n2 += (n - 6) * (n - 6) / count;
+    n1 += n, n2 += (n - 6) * (n - 6) / count;
     a2 += (a - 1) * (a - 1) / count, a3 += std::pow(a - 1, 3) / count;
     p1 += perimeter / count, p2 += (perimeter - 4) * (perimeter - 4) / count;
     n_a += (n - 6) * (a - 1) / count, around += (n - 6) * neighbours / count;
     const auto kind = std::min<std::size_t>(tile.vertex.size(), share.size() - 1);
     share[kind] += 1 / count, area_of[kind] += a;
   }
-  std::vector<Moment> moments{{"mean number of sides", n1, 6, 1e-9},
+  std::vector<Moment> moments{{"mean number of sides", n1 / count, 6, 0},
                               {"variance of the number of sides", n2, 1.7808, 2.0},
                               {"variance of the area", a2, 0.2802, 0.75},
                               {"skewness of the area", a3 / std::pow(a2, 1.5), 1.031, 5},

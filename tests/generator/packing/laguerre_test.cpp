@@ -73,6 +73,7 @@ TEST(laguerre, agrees_with_cutting_the_box_by_every_half_plane) {
 
 TEST(laguerre, finds_the_disks_that_overlapping_ones_hide) {
   for (unsigned seed = 0; seed < 5; ++seed) expect_right(random_disks(500, 0.1, seed), kUnit);
+  expect_right(random_disks(1000, 0.05, 9), kUnit);
 }
 
 TEST(laguerre, few_large_disks_may_own_several_corners_or_push_tiles_out_of_the_box) {
@@ -86,6 +87,16 @@ TEST(laguerre, one_large_disk_among_two_thousand_times_smaller_ones) {
   std::vector<Disk> disks = random_disks(600, 1e-4, 3);
   disks.push_back({{0.5, 0.5}, 0.2});
   expect_right(disks, kUnit);
+}
+
+TEST(laguerre, one_to_four_disks_on_one_line) {
+  for (int count = 1; count <= 4; ++count) {
+    for (const Vec2& way : {Vec2(1, 0), Vec2(0, 1), Vec2(1, 1), Vec2(-0.3, 0.9)}) {
+      std::vector<Disk> disks;
+      for (int i = 0; i < count; ++i) disks.push_back({Vec2(0.5, 0.5) + (i - 0.8) / 8 * way, 0.01 * i});
+      expect_right(disks, kUnit);
+    }
+  }
 }
 
 TEST(laguerre, disks_on_one_line_make_strips) {
@@ -202,6 +213,31 @@ TEST(laguerre, the_same_disks_in_another_order_give_the_same_tiles) {
     const Tile &a = t.tiles[i], &b = reversed.tiles[t.tiles.size() - 1 - i];
     EXPECT_EQ(a.vertex.size(), b.vertex.size());
     EXPECT_NEAR(tile_area(t, a), tile_area(reversed, b), 1e-15);
+  }
+}
+
+TEST(laguerre, a_quarter_turn_turns_the_tiles) {
+  const auto disks = random_disks(400, 0.02, 8);
+  for (const Periodic periodic : {Periodic{false, false}, Periodic{true, false}, Periodic{true, true}}) {
+    auto turned = disks;
+    for (Disk& disk : turned) disk.centre = left_of(disk.centre);
+    const Tessellation t = tessellate(disks, kUnit, {.hidden = Hidden::kReport, .periodic = periodic}),
+                       u = tessellate(turned, {{-1, 0}, {0, 1}},
+                                      {.hidden = Hidden::kReport, .periodic = {periodic[1], periodic[0]}});
+    EXPECT_EQ(t.hidden, u.hidden);
+    ASSERT_EQ(t.tiles.size(), u.tiles.size());
+    for (std::size_t i = 0; i < t.tiles.size(); ++i) {
+      std::multiset<Index> a, b;
+      for (const Index n : t.tiles[i].neighbour)
+        a.insert(n == kLeftSide     ? kBottomSide
+                 : n == kBottomSide ? kRightSide
+                 : n == kRightSide  ? kTopSide
+                 : n == kTopSide    ? kLeftSide
+                                    : n);
+      b.insert(u.tiles[i].neighbour.begin(), u.tiles[i].neighbour.end());
+      EXPECT_EQ(a, b);
+      EXPECT_NEAR(tile_area(t, t.tiles[i]), tile_area(u, u.tiles[i]), 1e-13);
+    }
   }
 }
 
