@@ -109,7 +109,7 @@ Vec2 wrapped(Vec2 p, const Box& box, const Periodic& periodic) {
 class WeightSearch {
  public:
   WeightSearch(const AreaProblem& problem, const WeightOptions& options, std::vector<double> start)
-      : problem_(problem), options_(options) {
+      : problem_(problem), measure_(problem.measure), options_(options) {
     found_.weight = std::move(start);
     for (int trial = 0;; ++trial) {
       found_.cells = measure(found_.weight);
@@ -145,7 +145,7 @@ class WeightSearch {
 
   TileMeasures measure(const std::vector<double>& weights) {
     ++found_.diagrams;
-    return problem_.measure(problem_.centres, weights);
+    return measure_(problem_.centres, weights);
   }
 
   /// One damped step: as long as no cell falls below half the least area, given or asked for, and the residual falls by half of what
@@ -187,6 +187,7 @@ class WeightSearch {
   static constexpr double kLeastDamping = 1e-9;
 
   const AreaProblem& problem_;
+  MeasureCells measure_;  // a copy: what it learns in one search must not change the last bits of another
   const WeightOptions& options_;
   Weights found_;
   double least_ = 0;    // area that every cell keeps [m2]
@@ -199,8 +200,8 @@ class WeightSearch {
 AreaProblem tile_problem(const Box& box, const Periodic& periodic, std::vector<Vec2> centres,
                          std::vector<double> shares) {
   return {box, periodic,
-          [box, periodic](const std::vector<Vec2>& x, const std::vector<double>& weights) {
-            return measure_tiles(x, weights, box, periodic);
+          [box, periodic, reach = 0.0](const std::vector<Vec2>& x, const std::vector<double>& weights) mutable {
+            return measure_tiles(x, weights, box, periodic, &reach);
           },
           std::move(centres), std::move(shares)};
 }

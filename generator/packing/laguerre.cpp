@@ -224,14 +224,14 @@ Tessellation tessellate(const std::vector<Vec2>& centres, const std::vector<doub
 }
 
 TileMeasures measure_tiles(const std::vector<Vec2>& centres, const std::vector<double>& weights, const Box& box,
-                           Periodic periodic) {
+                           Periodic periodic, double* reach) {
   const Naming name_of = names_of(centres, weights);
   std::vector<PowerSite> sites = sites_of(centres, weights, name_of);
   refuse_bad_box(box);
   refuse_sites_outside(sites, box, periodic, 100, name_of);
   TileMeasures measures{std::vector<double>(centres.size(), 0), centres, {}};
   if (sites.empty()) return measures;
-  const PlaneDiagram plane = plane_diagram(std::move(sites), box, periodic);
+  const PlaneDiagram plane = plane_diagram(std::move(sites), box, periodic, reach);
   measures.walls.reserve(plane.diagram.ring_site.size() / 2);
   Tessellation t;
   t.box = box;

@@ -70,8 +70,9 @@ struct TileMeasures {
 /// The measures of tessellate(centres, weights, ...) without its tiles, at less than its cost. Duplicates and hidden sites
 /// have no tile, which is no error here. Centres outside a periodic box stand for their images inside.
 /// Throws SceneError for numbers that are not finite, and for centres outside a side that is not periodic.
+/// `reach`: of a series of nearly the same diagrams, what a periodic one tells the next, to begin with 0; see plane_diagram.
 TileMeasures measure_tiles(const std::vector<Vec2>& centres, const std::vector<double>& weights, const Box& box,
-                           Periodic periodic = {false, false});
+                           Periodic periodic = {false, false}, double* reach = nullptr);
 
 /// Where the k-th corner of a tile is [m].
 Vec2 corner(const Tessellation& tessellation, const Tile& tile, std::size_t k);

@@ -153,9 +153,13 @@ class Surroundings {
 double first_guess(const PlaneDiagram& plane) {
   if (plane.sites < 64) return kInfinity;
   const double n = plane.sites;
-  double weight = 0;
-  for (const PowerSite& site : plane.site) weight += site.weight / n;
-  return plane.box.area() / n * (std::log(n) + 8) / std::numbers::pi - weight;
+  return plane.box.area() / n * (std::log(n) + 8) / std::numbers::pi;
+}
+
+double mean_weight(const PlaneDiagram& plane) {
+  double mean = 0;
+  for (const PowerSite& site : plane.site) mean += site.weight / plane.sites;
+  return mean;
 }
 
 /// Which vertices are images of each other: those whose sites are images of each other. The one that stands for them has a
@@ -253,7 +257,7 @@ class Vertices {
 
 }  // namespace
 
-PlaneDiagram plane_diagram(std::vector<PowerSite> sites, const Box& box, Periodic periodic) {
+PlaneDiagram plane_diagram(std::vector<PowerSite> sites, const Box& box, Periodic periodic, double* reach) {
   PlaneDiagram plane;
   plane.sites = static_cast<Index>(sites.size());
   plane.site = std::move(sites);
@@ -264,13 +268,18 @@ PlaneDiagram plane_diagram(std::vector<PowerSite> sites, const Box& box, Periodi
     return plane;
   }
   wrap(plane, box);
-  double rho = first_guess(plane);
+  const double mean = mean_weight(plane);  // a common shift of all weights shifts all powers the other way
+  double rho = (reach && *reach != 0 ? *reach : first_guess(plane)) - mean;
   for (int attempt = 0;; ++attempt) {
     Surroundings surroundings(plane, rho);
     surroundings.add_copies();
     plane.diagram = power_diagram(plane.site, plane.sites);
     const double needed = surroundings.needed();
-    if (needed <= rho) break;
+    if (needed <= rho) {
+      // Copies are few, and a second diagram costs as much as the first: with some room for what will change.
+      if (reach && rho < kInfinity) *reach = rho + mean + (attempt == 0 ? 0 : 0.25 * plane.box.area() / plane.sites);
+      break;
+    }
     rho = attempt < 3 ? needed + 1e-6 * plane.box.area() / plane.sites : kInfinity;  // beyond the rounding
   }
   Vertices(plane).find_canonical();

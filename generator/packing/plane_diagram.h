@@ -41,6 +41,8 @@ struct PlaneDiagram {
 ///
 /// Coordinates along periodic axes are rounded to a grid (2^-51 of the box or finer) on which displacements are exact. So
 /// exact predicates see the same configuration in every image, cocircular ones included.
-PlaneDiagram plane_diagram(std::vector<PowerSite> sites, const Box& box, Periodic periodic);
+///
+/// `reach`: a guess of that value [m2], were the mean weight zero, such as this leaves for the next call with nearly the same sites and weights; 0: none.
+PlaneDiagram plane_diagram(std::vector<PowerSite> sites, const Box& box, Periodic periodic, double* reach = nullptr);
 
 }  // namespace lamella
