@@ -16,9 +16,11 @@ using Notes = std::vector<std::string>;
 /// `progress(done, what)` is called with done in [0, 1]. Throws SceneError where the scene cannot be met.
 Sample generate(const Scene& scene, Notes& notes, const std::function<void(double, const std::string&)>& progress = {});
 
-/// Invariants of a sample, as a list of violations (empty: all hold). Those that apply: areas sum to the box, walls closed
-/// and counter-clockwise, links mutual and facing, no shell crosses itself or another, rest data finite and positive,
-/// indices in range.
-std::vector<std::string> check_sample(const Sample& sample);
+/// Invariants of a sample, as a list of violations (empty: all hold). Arrays fit together and indices are in range; cells
+/// are closed and counter-clockwise, no smaller at rest than their tiles allow; rest data are finite and positive; walls
+/// have two sides; links are sorted, unique, between the cells of their wall, face each other, are free of force and
+/// stand for no more than their wall; no shell crosses itself or another, across periodic sides neither; tiles take no
+/// more than the box. `filled`: area that the tiles must fill exactly [m2]; 0: not known.
+std::vector<std::string> check_sample(const Sample& sample, double filled = 0);
 
 }  // namespace lamella

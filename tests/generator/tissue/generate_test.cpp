@@ -169,32 +169,5 @@ TEST(Shapes, stand_alone_or_beside_a_tissue) {
   EXPECT_THROW(generate(scene, notes), SceneError) << "the plate crosses the ring";
 }
 
-TEST(CheckSample, finds_what_is_broken) {
-  Scene scene = scene_of("honeycomb");
-  scene.sample.columns = scene.sample.rows = 3;
-  scene.sample.side = 1;
-  scene.sample.walls.segments = 2;
-  Notes notes;
-  const Sample sound = generate(scene, notes);
-  const auto broken = [&](auto change) {
-    Sample sample = sound;
-    change(sample);
-    return !check_sample(sample).empty();
-  };
-  EXPECT_FALSE(broken([](Sample&) {}));
-  EXPECT_TRUE(broken([](Sample& s) { s.rest_length[3] = 0; }));
-  EXPECT_TRUE(broken([](Sample& s) { s.x[3].x() = NAN; }));
-  EXPECT_TRUE(broken([](Sample& s) { s.x[3] += Vec2(5, 0); }));
-  EXPECT_TRUE(broken([](Sample& s) { s.links[3].b = s.nodes(); }));
-  EXPECT_TRUE(broken([](Sample& s) { std::swap(s.links[3].a, s.links[3].b); }));
-  EXPECT_TRUE(broken([](Sample& s) { s.links[3].offset_t += 1e-3; }));
-  EXPECT_TRUE(broken([](Sample& s) { s.links.push_back(s.links.back()); }));
-  EXPECT_TRUE(broken([](Sample& s) { s.cell_begin[1] += 1000; }));
-  EXPECT_TRUE(broken([](Sample& s) { s.tile_area[0] *= 5; }));
-  EXPECT_TRUE(broken([](Sample& s) { s.group[0] = 7; }));
-  EXPECT_TRUE(broken([](Sample& s) { s.radius.pop_back(); }));
-  EXPECT_TRUE(broken([](Sample& s) { std::reverse(s.x.begin(), s.x.begin() + s.cell_begin[1]); }));
-}
-
 }  // namespace
 }  // namespace lamella
