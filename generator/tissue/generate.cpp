@@ -37,8 +37,8 @@ Tessellation tessellate(const Packing& packing, const PackingScene& scene, Notes
   return tessellation;
 }
 
-/// Inset, links and notch: what tiles, hexagons and imported polygons have in common.
-Sample make_tissue(Mosaic& mosaic, const Scene& scene, Notes& notes) {
+/// Inset, links and notch: what tiles, hexagons and imported polygons have in common. `mosaic` goes to the origin.
+Sample make_tissue(Mosaic& mosaic, const Scene& scene, Notes& notes, Origin& origin) {
   if (scene.sample.notch && !scene.sample.notch->polygon.empty()) {
     const Index removed = remove_cells_inside(mosaic, scene.sample.notch->polygon);
     if (removed == 0) throw SceneError("sample.notch.polygon: no cell has its centre inside");
@@ -47,11 +47,13 @@ Sample make_tissue(Mosaic& mosaic, const Scene& scene, Notes& notes) {
   }
   order_by_rows(mosaic);
   const double radius = scene.stages.front().cell(kGroup).outline_radius();
-  return make_tissue(mosaic, scene.sample.walls, radius, kGroup, notes);
+  Sample sample = make_tissue(mosaic, scene.sample.walls, radius, kGroup, notes);
+  origin.tiles = std::move(mosaic);
+  return sample;
 }
 
-Sample make_packed_tissue(const Scene& scene, Notes& notes, const Progress& progress) {
-  const Packing packing = make_packing(scene, [&](double done, const std::string& what) {
+Sample make_packed_tissue(const Scene& scene, Notes& notes, const Progress& progress, Origin& origin) {
+  const Packing& packing = origin.packing = make_packing(scene, [&](double done, const std::string& what) {
     if (progress) progress(0.7 * done, what);
   });
   notes.insert(notes.end(), packing.notes.begin(), packing.notes.end());
@@ -59,14 +61,15 @@ Sample make_packed_tissue(const Scene& scene, Notes& notes, const Progress& prog
   Tessellation tessellation = tessellate(packing, scene.sample.packing, notes);
   // Cocircular sites leave edges without length, which no wall can be made of: those are welded whatever is asked.
   const double share = std::max(scene.sample.walls.weld, 1e-9);
-  weld_short_edges(tessellation, share * mean_edge_length(tessellation), &notes);
+  origin.welded = weld_short_edges(tessellation, share * mean_edge_length(tessellation), &notes);
+  origin.hidden = static_cast<Index>(tessellation.hidden.size());
   if (progress) progress(0.8, "walls");
   Mosaic mosaic = mosaic_of(tessellation);
-  return make_tissue(mosaic, scene, notes);
+  return make_tissue(mosaic, scene, notes, origin);
 }
 
-Sample make_packed_rings(const Scene& scene, Notes& notes, const Progress& progress) {
-  const Packing packing = make_packing(scene, progress);
+Sample make_packed_rings(const Scene& scene, Notes& notes, const Progress& progress, Origin& origin) {
+  const Packing& packing = origin.packing = make_packing(scene, progress);
   notes.insert(notes.end(), packing.notes.begin(), packing.notes.end());
   std::vector<double> areas(packing.disks.size(), 0);
   if (packing.periodic[0] || packing.periodic[1]) {
@@ -82,7 +85,7 @@ Sample make_packed_rings(const Scene& scene, Notes& notes, const Progress& progr
                     areas);
 }
 
-Sample make_imported_tissue(const Scene& scene, Notes& notes) {
+Sample make_imported_tissue(const Scene& scene, Notes& notes, Origin& origin) {
   const auto path = scene.resolve(scene.sample.file);
   const auto polygons = read_polygons(path, scene.sample.scale, notes);
   if (scene.sample.outlines == "separate") {
@@ -93,7 +96,7 @@ Sample make_imported_tissue(const Scene& scene, Notes& notes) {
                                 scene.stages.front().cell(kGroup).outline_radius(), kGroup, notes);
   }
   Mosaic mosaic = share_walls(polygons, scene.sample, path.string());
-  return make_tissue(mosaic, scene, notes);
+  return make_tissue(mosaic, scene, notes, origin);
 }
 
 /// A box for shapes that were given none: what encloses their outlines.
@@ -119,18 +122,21 @@ void check(const Sample& sample, const SampleScene& asked) {
 
 }  // namespace
 
-Sample generate(const Scene& scene, Notes& notes, const std::function<void(double, const std::string&)>& progress) {
+Sample generate(const Scene& scene, Notes& notes, const std::function<void(double, const std::string&)>& progress,
+                Origin* origin) {
+  Origin unasked;
+  Origin& from = origin ? *origin : unasked;
   const SampleScene& asked = scene.sample;
   Sample sample;
   if (asked.kind == "tissue") {
-    sample = make_packed_tissue(scene, notes, progress);
+    sample = make_packed_tissue(scene, notes, progress, from);
   } else if (asked.kind == "rings") {
-    sample = make_packed_rings(scene, notes, progress);
+    sample = make_packed_rings(scene, notes, progress, from);
   } else if (asked.kind == "honeycomb") {
     Mosaic mosaic = make_honeycomb(asked);
-    sample = make_tissue(mosaic, scene, notes);
+    sample = make_tissue(mosaic, scene, notes, from);
   } else if (asked.kind == "polygons") {
-    sample = make_imported_tissue(scene, notes);
+    sample = make_imported_tissue(scene, notes, from);
   } else if (asked.kind == "shapes") {
     if (asked.shapes.empty()) throw SceneError("sample: kind = \"shapes\" needs at least one [[sample.shapes]]");
     sample.cell_begin.push_back(0);

@@ -169,5 +169,26 @@ TEST(Shapes, stand_alone_or_beside_a_tissue) {
   EXPECT_THROW(generate(scene, notes), SceneError) << "the plate crosses the ring";
 }
 
+TEST(Honeycomb, has_links_that_face_each_other_at_the_stated_gap) {
+  Scene scene = scene_of("honeycomb");
+  scene.sample.columns = scene.sample.rows = 3;
+  scene.sample.side = 1;
+  scene.sample.walls.segments = 2;
+  scene.sample.walls.gap = 0.03;
+  Notes notes;
+  Origin origin;
+  const Sample sample = generate(scene, notes, {}, &origin);
+  for (std::size_t l = 0; l < sample.links.size(); ++l) {
+    EXPECT_NEAR(sample.links[l].offset_n, 2 * sample.radius[0] + 0.03, 1e-12);
+    EXPECT_NEAR(sample.links[l].offset_t, 0, 1e-12);
+  }
+  // The tiles that the walls were inset from, one for each cell.
+  ASSERT_EQ(origin.tiles.cells.size(), 9u);
+  for (Index c = 0; c < sample.cells(); ++c) {
+    const auto polygon = polygon_of(origin.tiles, origin.tiles.cells[c]);
+    EXPECT_EQ(polygon_area(polygon.data(), static_cast<Index>(polygon.size())), sample.tile_area[c]);
+  }
+}
+
 }  // namespace
 }  // namespace lamella
