@@ -22,9 +22,10 @@ void add_errors(Chart& chart, double x, double y, double error) {
   if (error > 0) chart.curves.push_back({{x, x}, {y - error, y + error}, {kErrors, 1.1, {}}, ""});
 }
 
-/// The fit, over the range of what it was fitted to, `at` being where the line is 0 of its own x.
+/// The fit, a little beyond what it was fitted to, `at` being where its own x is 0.
 Curve fitted(const Line& line, double low, double high, double at, const std::string& label) {
   const auto y = [&](double x) { return line.intercept + line.slope * (x - at); };
+  low -= 0.4, high += 0.4;
   return {{low, high}, {y(low), y(high)}, {kFit, 1.8, {}}, label};
 }
 

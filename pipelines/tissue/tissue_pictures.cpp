@@ -141,7 +141,7 @@ std::vector<std::filesystem::path> draw_neighbours_and_areas(const std::filesyst
     };
     const PageMap map = panel(margin, "number of neighbours", [&](std::size_t c) {
       const Colour colour = neighbour_colour(measures.cells[c].neighbours);
-      return measures.cells[c].layer == 0 ? mix(colour, {1, 1, 1}, 0.65) : colour;
+      return measures.cells[c].layer == 0 ? mix(colour, {1, 1, 1}, 0.55) : colour;
     });
     panel(margin + width + gap, "area over its mean", [&](std::size_t c) { return viridis(relative[c] / high); });
     draw_neighbour_key(canvas, {margin, header + height + 14});

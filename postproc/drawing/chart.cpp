@@ -147,7 +147,9 @@ void draw_chart(Canvas& canvas, const Box& page, const Chart& given) {
   right.round_up();
   if (x.low > x.high) x.low = 0, x.high = 1;
   if (log_x) x.widen();
-  if (!log_x && x.low > 0 && x.low < 0.3 * x.high) x.low = 0;
+  const bool bars =
+      std::any_of(chart.curves.begin(), chart.curves.end(), [](const Curve& c) { return c.drawn == CurveKind::kBars; });
+  if (!log_x && !bars && x.low > 0 && x.low < 0.3 * x.high) x.low = 0;
   if (x.low == x.high) x.high = x.low + 1;
   const Vec2 span = plot.size();
   const auto to_page = [&](double at_x, double at_y, const Range& axis) {
