@@ -4,15 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "postproc/html.h"
 #include "postproc/summary.h"
 #include "simulator/trajectory/trajectory.h"
 
 namespace lamella {
-
-struct ReportPicture {
-  std::filesystem::path png;
-  std::string caption;
-};
 
 std::string report_html(const std::string& title, const std::vector<ReportPicture>& pictures, const Summary& summary,
                         const Provenance& provenance, const std::string& ended);

@@ -80,6 +80,21 @@ vtkSmartPointer<vtkPolyData> to_vtk(const Mesh& mesh, double time) {
 
 }  // namespace
 
+void write_vtp(const std::filesystem::path& path, const Mesh& mesh, double time) {
+  replace_output(path, [&](const std::filesystem::path& temporary) {
+    vtkObject::GlobalWarningDisplayOff();  // its errors become ours below
+    vtkNew<vtkXMLPolyDataWriter> writer;
+    writer->SetFileName(temporary.c_str());
+    writer->SetInputData(to_vtk(mesh, time));
+    writer->SetDataModeToAppended();
+    writer->EncodeAppendedDataOff();
+    writer->SetCompressorTypeToZLib();
+    writer->SetCompressionLevel(1);
+    if (writer->Write() == 0 || writer->GetErrorCode() != 0)
+      throw DataError(path.string() + ": cannot be written; is the disk full, the folder writable?");
+  });
+}
+
 VtkSeries::VtkSeries(std::filesystem::path folder, std::string name)
     : folder_(std::move(folder)), name_(std::move(name)) {
   make_folder(folder_ / "vtk");
@@ -93,19 +108,7 @@ void VtkSeries::add(double time, const Mesh& mesh) {
   assert(times_.empty() || time >= times_.back());
   // A stage starts where the last one ended, with arrays of its own: its frame takes the place of the other's.
   if (!times_.empty() && time == times_.back()) times_.pop_back();
-  const std::filesystem::path path = folder_ / file(times_.size());
-  replace_output(path, [&](const std::filesystem::path& temporary) {
-    vtkObject::GlobalWarningDisplayOff();  // its errors become ours below
-    vtkNew<vtkXMLPolyDataWriter> writer;
-    writer->SetFileName(temporary.c_str());
-    writer->SetInputData(to_vtk(mesh, time));
-    writer->SetDataModeToAppended();
-    writer->EncodeAppendedDataOff();
-    writer->SetCompressorTypeToZLib();
-    writer->SetCompressionLevel(1);
-    if (writer->Write() == 0 || writer->GetErrorCode() != 0)
-      throw DataError(path.string() + ": cannot be written; is the disk full, the folder writable?");
-  });
+  write_vtp(folder_ / file(times_.size()), mesh, time);
   times_.push_back(time);
 }
 

@@ -30,6 +30,9 @@ struct Mesh {
   void end_cell() { offsets.push_back(static_cast<std::int64_t>(connectivity.size())); }
 };
 
+/// One mesh, one file (.vtp). Throws DataError when it cannot be written.
+void write_vtp(const std::filesystem::path& path, const Mesh& mesh, double time = 0);
+
 /// A time series: NAME.pvd in a folder and NAME_0000.vtp, ... in its subfolder vtk/.
 class VtkSeries {
  public:

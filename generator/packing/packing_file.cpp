@@ -10,6 +10,7 @@
 #include <map>
 #include <optional>
 
+#include "generator/packing/tess_file.h"
 #include "generator/sample/errors.h"
 
 namespace lamella {
@@ -106,6 +107,7 @@ bool is_header(const std::string& line) {
 }  // namespace
 
 Packing read_packing(const std::filesystem::path& path, const Box* box, const std::string& duplicates) {
+  if (path.extension() == ".tess") return read_tess_seeds(path, box);
   std::ifstream in(path);
   if (!in || std::filesystem::is_directory(path))
     throw DataError(fmt::format("{}: cannot be read; it should be a packing, x,y,r a line", path.string()));

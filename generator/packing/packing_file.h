@@ -10,6 +10,7 @@ namespace lamella {
 /// Reads `x,y,r` a line [m], or `x,y,r,target_area` on all of them [m, m2], separated by commas, semicolons, blanks or tabs; `#` starts a comment; the first line may be a
 /// header. `box`: where all centres must lie; null: the box that encloses the disks. Two disks of one centre and radius are
 /// a fault, or with duplicates "keep_first" the later ones are left out and noted.
+/// A file *.tess gives its seeds instead: read_tess_seeds.
 /// Throws SceneError with every fault as `file:line: ...`; DataError when the file cannot be read.
 Packing read_packing(const std::filesystem::path& path, const Box* box = nullptr,
                      const std::string& duplicates = "error");

@@ -3,33 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "generator/generate.h"
-#include "generator/tissue/crossings.h"
+#include "generator/tissue/violations.h"
 
 namespace lamella {
 namespace {
-
-constexpr std::size_t kMost = 20;  // violations of one kind that are listed
-
-class Violations {
- public:
-  template <class... T>
-  void add(fmt::format_string<T...> format, T&&... values) {
-    if (list_.size() < kMost) list_.push_back(fmt::format(format, std::forward<T>(values)...));
-    ++count_;
-  }
-  void append_to(std::vector<std::string>& all) const {
-    all.insert(all.end(), list_.begin(), list_.end());
-    if (count_ > list_.size()) all.push_back(fmt::format("... and {} more like it", count_ - list_.size()));
-  }
-  bool any() const { return count_ > 0; }
-
- private:
-  std::vector<std::string> list_;
-  std::size_t count_ = 0;
-};
 
 bool check_shapes_of_arrays(const Sample& s, std::vector<std::string>& all) {
   Violations bad;
@@ -44,22 +23,28 @@ bool check_shapes_of_arrays(const Sample& s, std::vector<std::string>& all) {
   if (s.closed.size() != cells || s.group.size() != cells || s.radius.size() != cells || s.rest_area.size() != cells ||
       s.tile_area.size() != cells)
     bad.add("an array per cell does not have {} entries", cells);
-  if (!s.cell_thickness.empty() && s.cell_thickness.size() != cells)
-    bad.add("{} thickness factors for {} cells", s.cell_thickness.size(), cells);
+  if (!s.link_image.empty() && s.link_image.size() != s.links.size())
+    bad.add("link_image has {} entries for {} links", s.link_image.size(), s.links.size());
   if (!s.link_strength.empty() && s.link_strength.size() != s.links.size())
-    bad.add("{} strength factors for {} links", s.link_strength.size(), s.links.size());
+    bad.add("link_strength has {} entries for {} links", s.link_strength.size(), s.links.size());
+  if (!s.cell_thickness.empty() && s.cell_thickness.size() != cells)
+    bad.add("cell_thickness has {} entries for {} cells", s.cell_thickness.size(), cells);
   bad.append_to(all);
   return !bad.any();
 }
 
-void check_cells(const Sample& s, std::vector<std::string>& all) {
+void check_cells(const Sample& s, double filled, std::vector<std::string>& all) {
   Violations bad;
+  if (!(std::isfinite(s.box.area()) && (s.box.size().array() > 0).all()))
+    bad.add("the box runs from ({}, {}) to ({}, {})", s.box.lo.x(), s.box.lo.y(), s.box.hi.x(), s.box.hi.y());
   double tiles = 0;
   for (Index c = 0; c < s.cells(); ++c) {
     const Index begin = s.cell_begin[c];
     if (s.group[c] < 0 || s.group[c] >= static_cast<Index>(s.group_names.size()))
       bad.add("cell {}: group {} does not exist", c, s.group[c]);
     if (!(std::isfinite(s.radius[c]) && s.radius[c] >= 0)) bad.add("cell {}: radius {}", c, s.radius[c]);
+    if (!s.cell_thickness.empty() && !(std::isfinite(s.cell_thickness[c]) && s.cell_thickness[c] > 0))
+      bad.add("cell {}: a factor {} on its wall's thickness", c, s.cell_thickness[c]);
     if (!s.closed[c]) {
       if (s.cell_size(c) < 2) bad.add("cell {}: an open chain of {} nodes", c, s.cell_size(c));
       continue;
@@ -76,10 +61,14 @@ void check_cells(const Sample& s, std::vector<std::string>& all) {
     // A shape beside a tissue has an area of its own; it takes none of the box.
     Vec2 mean = Vec2::Zero();
     for (Index k = begin; k < s.cell_begin[c + 1]; ++k) mean += s.x[k] / s.cell_size(c);
+    for (const int axis : {0, 1})
+      if (s.periodic[axis]) mean[axis] = s.box.lo[axis];  // inside, as one of its images is
     if (s.box.contains(mean)) tiles += s.tile_area[c];
   }
   if (tiles > s.box.area() * (1 + 1e-9))
     bad.add("the tiles have {} m2 together, more than the box with {} m2", tiles, s.box.area());
+  if (filled > 0 && !(std::abs(tiles - filled) <= 1e-9 * filled))
+    bad.add("the tiles have {} m2 together; they must fill {} m2", tiles, filled);
   bad.append_to(all);
 }
 
@@ -114,84 +103,15 @@ void check_nodes(const Sample& s, std::vector<std::string>& all) {
   bad.append_to(all);
 }
 
-void check_links(const Sample& s, std::vector<std::string>& all) {
-  Violations bad;
-  const auto cell = cell_of_node(s);
-  const auto exists = [&](Index k) { return k >= 0 && k < s.nodes(); };
-  std::set<std::pair<Index, Index>> seen;
-  Index wall = 0;
-  for (std::size_t l = 0; l < s.links.size(); ++l) {
-    const Link& link = s.links[l];
-    if (!exists(link.a) || !exists(link.b) || !exists(link.a_prev) || !exists(link.a_next) || !exists(link.b_prev) ||
-        !exists(link.b_next) || link.wall < 0 || link.wall >= static_cast<Index>(s.walls.size())) {
-      bad.add("link {}: names a node or wall that does not exist", l);
-      continue;
-    }
-    const Wall& of = s.walls[link.wall];
-    if (link.wall < wall) bad.add("link {}: links are not sorted by wall", l);
-    wall = link.wall;
-    if (cell[link.a] != of.cell_a || cell[link.b] != of.cell_b || of.cell_a >= of.cell_b)
-      bad.add("link {}: joins cells {} and {}, its wall is between {} and {}", l, cell[link.a], cell[link.b], of.cell_a,
-              of.cell_b);
-    if (cell[link.a_prev] != cell[link.a] || cell[link.a_next] != cell[link.a] || cell[link.b_prev] != cell[link.b] ||
-        cell[link.b_next] != cell[link.b])
-      bad.add("link {}: its tangent leaves its cells", l);
-    if (!seen.emplace(link.a, link.b).second)
-      bad.add("link {}: a second link between nodes {} and {}", l, link.a, link.b);
-    if (!(link.length > 0 && std::isfinite(link.length) && link.spacing > 0 && std::isfinite(link.spacing)))
-      bad.add("link {}: tributary length {} m, spacing {} m", l, link.length, link.spacing);
-    const Vec2 tau = (s.x[link.a_next] - s.x[link.a_prev]) - (s.x[link.b_next] - s.x[link.b_prev]);
-    if (!(tau.norm() > 0)) {
-      bad.add("link {}: its tangent has no direction", l);
-      continue;
-    }
-    const Vec2 t = tau.normalized();
-    const Vec2 across = s.x[link.b] - s.x[link.a];
-    if (!(across.dot(right_of(t)) > 0)) bad.add("link {}: its normal does not point from a to b", l);
-    const Vec2 off(across.dot(right_of(t)) - link.offset_n, across.dot(t) - link.offset_t);
-    if (!(off.norm() <= 1e-9 * (across.norm() + link.spacing)))
-      bad.add("link {}: not free of force where it is (off by {} m)", l, off.norm());
-  }
-  bad.append_to(all);
-}
-
-void check_crossings(const Sample& s, std::vector<std::string>& all) {
-  Violations bad;
-  std::vector<OwnedSegment> segments;
-  std::vector<int> segment_of_node(s.x.size(), -1);
-  for (Index c = 0; c < s.cells(); ++c)
-    for (Index k = s.cell_begin[c]; k < s.cell_begin[c + 1]; ++k)
-      if (s.starts_segment(c, k)) {
-        segment_of_node[k] = static_cast<int>(segments.size());
-        segments.push_back({s.x[k], s.x[s.next(c, k)], c, -1, -1});
-      }
-  for (Index c = 0; c < s.cells(); ++c)
-    for (Index k = s.cell_begin[c]; k < s.cell_begin[c + 1]; ++k) {
-      if (segment_of_node[k] < 0) continue;
-      OwnedSegment& segment = segments[segment_of_node[k]];
-      if (s.closed[c] || k > s.cell_begin[c]) segment.before = segment_of_node[s.prev(c, k)];
-      segment.after = segment_of_node[s.next(c, k)];
-    }
-  for (const Crossing& crossing : find_crossings(segments)) {
-    const OwnedSegment& a = segments[crossing.first];
-    const OwnedSegment& b = segments[crossing.second];
-    if (a.owner == b.owner)
-      bad.add("cell {} crosses itself near ({:g}, {:g})", a.owner, a.from.x(), a.from.y());
-    else
-      bad.add("cells {} and {} cross near ({:g}, {:g})", a.owner, b.owner, b.from.x(), b.from.y());
-  }
-  bad.append_to(all);
-}
-
 }  // namespace
 
-std::vector<std::string> check_sample(const Sample& sample) {
+std::vector<std::string> check_sample(const Sample& sample, double filled) {
   std::vector<std::string> all;
   if (!check_shapes_of_arrays(sample, all)) return all;
-  check_cells(sample, all);
+  check_cells(sample, filled, all);
   check_factors(sample, all);
   check_nodes(sample, all);
-  check_links(sample, all);
+  check_walls_and_links(sample, all);
   if (all.empty()) check_crossings(sample, all);
   return all;
 }

@@ -21,6 +21,69 @@ bool cross_properly(const OwnedSegment& s, const OwnedSegment& t) {
          orientation(t.from, t.to, s.from) * orientation(t.from, t.to, s.to) < 0;
 }
 
+bool boxes_apart(const OwnedSegment& s, const OwnedSegment& t) {
+  const auto apart = [](double a, double b, double c, double d) {
+    return std::max(a, b) < std::min(c, d) || std::max(c, d) < std::min(a, b);
+  };
+  return apart(s.from.x(), s.to.x(), t.from.x(), t.to.x()) || apart(s.from.y(), s.to.y(), t.from.y(), t.to.y());
+}
+
+/// Which cells of a uniform grid a set of segments, known beforehand, touches: two flat arrays, where a list for every
+/// cell would be a million small ones.
+class Bins {
+ public:
+  explicit Bins(const std::vector<OwnedSegment>& segments) : segments_(segments) {
+    Vec2 hi = segments[0].from;
+    lo_ = hi;
+    double length = 0;
+    for (const OwnedSegment& s : segments) {
+      lo_ = lo_.cwiseMin(s.from.cwiseMin(s.to));
+      hi = hi.cwiseMax(s.from.cwiseMax(s.to));
+      length += (s.to - s.from).norm();
+    }
+    const Vec2 size = hi - lo_;
+    const auto count = static_cast<double>(segments.size());
+    step_ =
+        std::max({length / count, std::sqrt(size.x() * size.y() / (4 * count + 4)), size.maxCoeff() * 1e-4, 1e-300});
+    columns_ = static_cast<int>(size.x() / step_) + 1;
+    rows_ = static_cast<int>(size.y() / step_) + 1;
+    begin_.assign(static_cast<std::size_t>(columns_) * rows_ + 1, 0);
+    for (const OwnedSegment& s : segments) each_bin(s, [&](std::size_t bin) { ++begin_[bin + 1]; });
+    for (std::size_t b = 1; b < begin_.size(); ++b) begin_[b] += begin_[b - 1];
+    items_.resize(begin_.back());
+    std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
+    for (std::size_t i = 0; i < segments.size(); ++i)
+      each_bin(segments[i], [&](std::size_t bin) { items_[next[bin]++] = static_cast<int>(i); });
+  }
+
+  /// Segments of lower index in the same cells of the grid; some more than once.
+  template <class Visit>
+  void visit_lower(int index, Visit&& see) const {
+    each_bin(segments_[index], [&](std::size_t bin) {
+      for (std::size_t k = begin_[bin]; k < begin_[bin + 1] && items_[k] < index; ++k) see(items_[k]);
+    });
+  }
+
+ private:
+  template <class Visit>
+  void each_bin(const OwnedSegment& s, Visit&& see) const {
+    const auto place = [&](double d, int count) { return static_cast<int>(std::clamp(d / step_, 0.0, count - 1.0)); };
+    const int x0 = place(std::min(s.from.x(), s.to.x()) - lo_.x(), columns_);
+    const int x1 = place(std::max(s.from.x(), s.to.x()) - lo_.x(), columns_);
+    const int y0 = place(std::min(s.from.y(), s.to.y()) - lo_.y(), rows_);
+    const int y1 = place(std::max(s.from.y(), s.to.y()) - lo_.y(), rows_);
+    for (int y = y0; y <= y1; ++y)
+      for (int x = x0; x <= x1; ++x) see(static_cast<std::size_t>(y) * columns_ + x);
+  }
+
+  const std::vector<OwnedSegment>& segments_;
+  Vec2 lo_;
+  double step_ = 1;
+  int columns_ = 1, rows_ = 1;
+  std::vector<std::size_t> begin_;
+  std::vector<int> items_;
+};
+
 }  // namespace
 
 Grid::Grid(const Box& box, double spacing, std::size_t items) : box_(box) {
@@ -51,31 +114,23 @@ void Grid::add(int item, const Vec2& lo, const Vec2& hi) {
 std::vector<Crossing> find_crossings(const std::vector<OwnedSegment>& segments, std::size_t most) {
   std::vector<Crossing> found;
   if (segments.empty()) return found;
-  Box box{segments[0].from, segments[0].from};
-  double length = 0;
-  for (const OwnedSegment& s : segments) {
-    box.lo = box.lo.cwiseMin(s.from.cwiseMin(s.to));
-    box.hi = box.hi.cwiseMax(s.from.cwiseMax(s.to));
-    length += (s.to - s.from).norm();
-  }
-  Grid grid(box, length / static_cast<double>(segments.size()), segments.size());
+  const Bins bins(segments);
+  std::vector<int> crossed;
   for (std::size_t i = 0; i < segments.size(); ++i) {
     const OwnedSegment& s = segments[i];
-    const Vec2 lo = s.from.cwiseMin(s.to);
-    const Vec2 hi = s.from.cwiseMax(s.to);
-    const auto index = static_cast<int>(i);
-    std::vector<int> crossed;
-    grid.visit(lo, hi, [&](int other) {
+    crossed.clear();
+    bins.visit_lower(static_cast<int>(i), [&](int other) {
       if (other == s.before || other == s.after) return;
-      if (cross_properly(s, segments[other])) crossed.push_back(other);
+      const OwnedSegment& t = segments[other];
+      if (boxes_apart(s, t) || !cross_properly(s, t)) return;
+      crossed.push_back(other);
     });
     std::sort(crossed.begin(), crossed.end());
     crossed.erase(std::unique(crossed.begin(), crossed.end()), crossed.end());
     for (const int other : crossed) {
-      found.push_back({other, index});
+      found.push_back({other, static_cast<int>(i)});
       if (found.size() >= most) return found;
     }
-    grid.add(index, lo, hi);
   }
   return found;
 }

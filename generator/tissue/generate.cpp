@@ -43,8 +43,8 @@ Tessellation tessellate(const Packing& packing, const PackingScene& scene, Notes
   return tessellation;
 }
 
-/// Inset, links and notch: what tiles, hexagons and imported polygons have in common.
-Sample make_tissue(Mosaic& mosaic, const Scene& scene, Notes& notes) {
+/// Inset, links and notch: what tiles, hexagons and imported polygons have in common. `mosaic` goes to the origin.
+Sample make_tissue(Mosaic& mosaic, const Scene& scene, Notes& notes, Origin& origin) {
   if (scene.sample.notch && !scene.sample.notch->polygon.empty()) {
     const Index removed = remove_cells_inside(mosaic, scene.sample.notch->polygon);
     if (removed == 0) throw SceneError("sample.notch.polygon: no cell has its centre inside");
@@ -53,7 +53,9 @@ Sample make_tissue(Mosaic& mosaic, const Scene& scene, Notes& notes) {
   }
   order_by_rows(mosaic);
   const auto radius = [&](const std::string& group) { return scene.stages.front().cell(group).outline_radius(); };
-  return make_tissue(mosaic, scene.sample.walls, radius, notes);
+  Sample sample = make_tissue(mosaic, scene.sample.walls, radius, notes);
+  origin.tiles = std::move(mosaic);
+  return sample;
 }
 
 std::vector<Vec2> centres_of(const Tessellation& tessellation, std::size_t sites) {
@@ -93,9 +95,9 @@ CellAreas make_cell_areas(const Packing& packing, const Scene& scene, Notes& not
   }
 }
 
-Mosaic make_packed_mosaic(const Scene& scene, Notes& notes, const Progress& progress) {
-  if (scene.sample.domain || scene.sample.stretch) return make_domain_mosaic(scene, notes, progress);
-  const Packing packing = make_packing(
+Mosaic make_packed_mosaic(const Scene& scene, Notes& notes, const Progress& progress, Origin& origin) {
+  if (scene.sample.domain || scene.sample.stretch) return make_domain_mosaic(scene, notes, progress, origin);
+  const Packing& packing = origin.packing = make_packing(
       scene,
       [&](double done, const std::string& what) {
         if (progress) progress(0.7 * done, what);
@@ -108,8 +110,9 @@ Mosaic make_packed_mosaic(const Scene& scene, Notes& notes, const Progress& prog
   Tessellation tessellation = exact ? exact->tessellation : tessellate(packing, scene.sample.packing, notes);
   // Cocircular sites leave edges without length, which no wall can be made of: those are welded whatever is asked.
   const double share = std::max(scene.sample.walls.weld, 1e-9);
-  const int welded = weld_short_edges(tessellation, share * mean_edge_length(tessellation), &notes);
-  if (exact) note_welded_areas(*exact, tessellation, welded, notes);
+  origin.welded = weld_short_edges(tessellation, share * mean_edge_length(tessellation), &notes);
+  origin.hidden = static_cast<Index>(tessellation.hidden.size());
+  if (exact) note_welded_areas(*exact, tessellation, origin.welded, notes);
   Mosaic mosaic = mosaic_of(tessellation);
   if (!packing.group.empty())
     for (std::size_t c = 0; c < mosaic.cells.size(); ++c)
@@ -117,18 +120,18 @@ Mosaic make_packed_mosaic(const Scene& scene, Notes& notes, const Progress& prog
   return mosaic;
 }
 
-Sample make_packed_tissue(const Scene& scene, Notes& notes, const Progress& progress) {
-  Mosaic mosaic = make_packed_mosaic(scene, notes, progress);
+Sample make_packed_tissue(const Scene& scene, Notes& notes, const Progress& progress, Origin& origin) {
+  Mosaic mosaic = make_packed_mosaic(scene, notes, progress, origin);
   if (progress) progress(0.8, "walls");
   vary_cells(mosaic, scene.sample, notes);
-  Sample sample = make_tissue(mosaic, scene, notes);
+  Sample sample = make_tissue(mosaic, scene, notes, origin);
   if (scene.sample.areas && scene.sample.areas->of == "inset")
-    note_enclosed_areas(mosaic, scene.sample.walls.gap, sample, notes);
+    note_enclosed_areas(origin.tiles, scene.sample.walls.gap, sample, notes);
   return sample;
 }
 
-Sample make_packed_rings(const Scene& scene, Notes& notes, const Progress& progress) {
-  const Packing packing = make_packing(scene, progress);
+Sample make_packed_rings(const Scene& scene, Notes& notes, const Progress& progress, Origin& origin) {
+  const Packing& packing = origin.packing = make_packing(scene, progress);
   notes.insert(notes.end(), packing.notes.begin(), packing.notes.end());
   std::vector<double> areas(packing.disks.size(), 0);
   if (packing.periodic[0] || packing.periodic[1]) {
@@ -144,7 +147,7 @@ Sample make_packed_rings(const Scene& scene, Notes& notes, const Progress& progr
                     areas);
 }
 
-Sample make_imported_tissue(const Scene& scene, Notes& notes) {
+Sample make_imported_tissue(const Scene& scene, Notes& notes, Origin& origin) {
   const auto path = scene.resolve(scene.sample.file);
   const auto polygons = read_polygons(path, scene.sample.scale, notes);
   if (scene.sample.outlines == "separate") {
@@ -155,15 +158,15 @@ Sample make_imported_tissue(const Scene& scene, Notes& notes) {
                                 scene.stages.front().cell(kGroup).outline_radius(), kGroup, notes);
   }
   Mosaic mosaic = share_walls(polygons, scene.sample, path.string());
-  return make_tissue(mosaic, scene, notes);
+  return make_tissue(mosaic, scene, notes, origin);
 }
 
-Sample make_pictured_tissue(const Scene& scene, Notes& notes, const Progress& progress) {
+Sample make_pictured_tissue(const Scene& scene, Notes& notes, const Progress& progress, Origin& origin) {
   Mosaic mosaic = make_image_mosaic(scene, notes, [&](double done, const std::string& what) {
     if (progress) progress(0.8 * done, what);
   });
   try {
-    return make_tissue(mosaic, scene, notes);
+    return make_tissue(mosaic, scene, notes, origin);
   } catch (const SceneError& error) {
     if (!has_narrow_cells(mosaic, scene)) throw;
     auto faults = error.faults();
@@ -184,32 +187,37 @@ Box enclosing_box(const Sample& sample) {
   return box;
 }
 
-void check(const Sample& sample, const std::string& kind) {
-  auto violations = check_sample(sample);
+void check(const Sample& sample, const SampleScene& asked) {
+  // A tessellation leaves no gap: where nothing is taken away or added it fills its box.
+  const bool fills = asked.kind == "tissue" && !asked.notch && !asked.domain && asked.shapes.empty();
+  auto violations = check_sample(sample, fills ? sample.box.area() : 0);
   if (violations.empty()) return;
-  violations.insert(violations.begin(), fmt::format("sample: the {} that the scene asks for is not sound", kind));
+  violations.insert(violations.begin(), fmt::format("sample: the {} that the scene asks for is not sound", asked.kind));
   throw SceneError(violations);
 }
 
 }  // namespace
 
-Sample generate(const Scene& scene, Notes& notes, const std::function<void(double, const std::string&)>& progress) {
+Sample generate(const Scene& scene, Notes& notes, const std::function<void(double, const std::string&)>& progress,
+                Origin* origin) {
+  Origin unasked;
+  Origin& from = origin ? *origin : unasked;
   const SampleScene& asked = scene.sample;
   Sample sample;
   if (asked.kind == "tissue") {
-    sample = make_packed_tissue(scene, notes, progress);
+    sample = make_packed_tissue(scene, notes, progress, from);
   } else if (asked.kind == "rings") {
-    sample = make_packed_rings(scene, notes, progress);
+    sample = make_packed_rings(scene, notes, progress, from);
   } else if (asked.kind == "honeycomb") {
     Mosaic mosaic = make_honeycomb(asked);
-    sample = make_tissue(mosaic, scene, notes);
+    sample = make_tissue(mosaic, scene, notes, from);
   } else if (asked.kind == "bricks") {
     Mosaic mosaic = make_bricks(asked);
-    sample = make_tissue(mosaic, scene, notes);
+    sample = make_tissue(mosaic, scene, notes, from);
   } else if (asked.kind == "polygons") {
-    sample = make_imported_tissue(scene, notes);
+    sample = make_imported_tissue(scene, notes, from);
   } else if (asked.kind == "image") {
-    sample = make_pictured_tissue(scene, notes, progress);
+    sample = make_pictured_tissue(scene, notes, progress, from);
   } else if (asked.kind == "shapes") {
     if (asked.shapes.empty()) throw SceneError("sample: kind = \"shapes\" needs at least one [[sample.shapes]]");
     sample.cell_begin.push_back(0);
@@ -229,7 +237,7 @@ Sample generate(const Scene& scene, Notes& notes, const std::function<void(doubl
   sample.scene_text = scene.text;
   sample.seed = scene.seed;
   if (progress) progress(0.95, "check");
-  check(sample, asked.kind);
+  check(sample, asked);
   if (progress) progress(1, "done");
   return sample;
 }

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <map>
 
+#include "generator/packing/word_reader.h"
 #include "generator/sample/errors.h"
 #include "generator/sample/sample.h"
 #include "generator/tissue/crossings.h"
@@ -51,14 +52,6 @@ std::vector<std::string_view> words_of(std::string_view line) {
   }
 }
 
-/// What a fault shows of the file: its first characters, none that a terminal would act on.
-std::string shown(std::string_view word) {
-  std::string text(word.substr(0, 30));
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < 32 || static_cast<unsigned char>(c) > 126) c = '?';
-  return text;
-}
-
 bool read_coordinate(std::string_view word, const char* name, int line, double& value, Faults& faults) {
   if (!word.empty() && word.front() == '+') word.remove_prefix(1);
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
@@ -73,7 +66,7 @@ bool read_coordinate(std::string_view word, const char* name, int line, double& 
   return true;
 }
 
-std::vector<ImportedCell> read_cells(std::istream& in, double scale, Faults& faults) {
+std::vector<ImportedCell> read_lines(std::istream& in, double scale, Faults& faults) {
   std::vector<ImportedCell> cells;
   std::map<std::string, int, std::less<>> first_line;
   std::string text;
@@ -95,7 +88,7 @@ std::vector<ImportedCell> read_cells(std::istream& in, double scale, Faults& fau
         faults.add(line, fmt::format(
                              "cell {} began at line {} and ended before this; the points of a cell must be consecutive",
                              shown(label), known->second));
-      cells.push_back({label, {}, {}});
+      cells.push_back({label, {}, {}, {}});
     }
     if (!x || !y) continue;
     cells.back().points.push_back(scale * point);
@@ -111,6 +104,7 @@ void check_points(ImportedCell& cell, int& closing, Faults& faults) {
   if (points.size() > 3 && points.front() == points.back()) {
     points.pop_back();
     lines.pop_back();
+    if (!cell.vertex.empty()) cell.vertex.pop_back();
     ++closing;
   }
   const std::string name = shown(cell.label);
@@ -138,6 +132,7 @@ void check_points(ImportedCell& cell, int& closing, Faults& faults) {
   if (area < 0) {
     std::reverse(points.begin(), points.end());
     std::reverse(lines.begin(), lines.end());
+    std::reverse(cell.vertex.begin(), cell.vertex.end());
   }
 }
 
@@ -161,11 +156,16 @@ std::vector<ImportedCell> read_polygons(const std::filesystem::path& path, doubl
   if (!std::filesystem::is_regular_file(path))
     throw DataError(
         fmt::format("{}: no such file; sample.file must name a text file of lines `x y cell`", path.string()));
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw DataError(fmt::format("{}: cannot be read", path.string()));
   Faults faults(path.string());
-  auto cells = read_cells(in, scale, faults);
-  if (in.bad()) throw DataError(fmt::format("{}: reading failed", path.string()));
+  std::vector<ImportedCell> cells;
+  if (path.extension() == ".tess" || path.extension() == ".off") {
+    cells = read_numbered_polygons(path, scale, notes);
+  } else {
+    std::ifstream in(path, std::ios::binary);
+    if (!in) throw DataError(fmt::format("{}: cannot be read", path.string()));
+    cells = read_lines(in, scale, faults);
+    if (in.bad()) throw DataError(fmt::format("{}: reading failed", path.string()));
+  }
   int closing = 0;
   for (ImportedCell& cell : cells) check_points(cell, closing, faults);
   if (cells.empty() && !faults.any()) faults.add(1, "no cells; a line is `x y cell`");

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -14,6 +15,7 @@ namespace lamella {
 namespace {
 
 constexpr double kSamePoint = 1e-4;  // of the mean cell size
+constexpr double kOnAnEdge = 1e-9;   // the same, where vertices are numbered and only T-junctions go by place
 
 double mean_size(const std::vector<ImportedCell>& cells) {
   double area = 0;
@@ -73,6 +75,22 @@ std::vector<std::vector<Index>> weld_points(const std::vector<ImportedCell>& cel
     }
     if (ids[c].size() > 1 && ids[c].front() == ids[c].back()) ids[c].pop_back();
   }
+  return ids;
+}
+
+/// Vertices of a file that numbers them, those that cells use, in its order.
+std::vector<std::vector<Index>> numbered_points(const std::vector<ImportedCell>& cells, std::vector<Vec2>& vertices) {
+  std::map<Index, Vec2> used;
+  for (const auto& cell : cells)
+    for (std::size_t k = 0; k < cell.vertex.size(); ++k) used.emplace(cell.vertex[k], cell.points[k]);
+  std::map<Index, Index> place;
+  for (const auto& [number, point] : used) {
+    place.emplace(number, static_cast<Index>(vertices.size()));
+    vertices.push_back(point);
+  }
+  std::vector<std::vector<Index>> ids(cells.size());
+  for (std::size_t c = 0; c < cells.size(); ++c)
+    for (const Index number : cells[c].vertex) ids[c].push_back(place.at(number));
   return ids;
 }
 
@@ -182,14 +200,17 @@ Mosaic share_walls(const std::vector<ImportedCell>& cells, const SampleScene& sc
   Mosaic mosaic;
   mosaic.box = box_of(cells, scene, 0);
   const Box around = box_of(cells, {}, 0);
-  const auto ids = weld_points(cells, tolerance, around, mosaic.vertices);
+  const bool numbered = !cells.front().vertex.empty();
+  const auto ids =
+      numbered ? numbered_points(cells, mosaic.vertices) : weld_points(cells, tolerance, around, mosaic.vertices);
+  const double on_edge = numbered ? kOnAnEdge / kSamePoint * tolerance : tolerance;
   Grid grid(around, 0, mosaic.vertices.size());
   for (std::size_t v = 0; v < mosaic.vertices.size(); ++v)
     grid.add(static_cast<int>(v), mosaic.vertices[v], mosaic.vertices[v]);
   std::vector<std::string> faults;
   for (std::size_t c = 0; c < cells.size(); ++c) {
     MosaicCell cell;
-    cell.vertex = divided(ids[c], mosaic.vertices, grid, tolerance);
+    cell.vertex = divided(ids[c], mosaic.vertices, grid, on_edge);
     auto sorted = cell.vertex;
     std::sort(sorted.begin(), sorted.end());
     if (cell.vertex.size() < 3 || std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())

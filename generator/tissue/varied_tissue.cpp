@@ -49,7 +49,7 @@ void draw_out(DomainTissue& tissue, const Eigen::Matrix2d& map, const Box& box) 
 
 }  // namespace
 
-Mosaic make_domain_mosaic(const Scene& scene, Notes& notes, const TissueProgress& progress) {
+Mosaic make_domain_mosaic(const Scene& scene, Notes& notes, const TissueProgress& progress, Origin& origin) {
   const SampleScene& asked = scene.sample;
   const Domain domain = asked_domain(asked);
   const Eigen::Matrix2d map = asked.stretch ? stretch_map(*asked.stretch) : Eigen::Matrix2d::Identity();
@@ -60,7 +60,7 @@ Mosaic make_domain_mosaic(const Scene& scene, Notes& notes, const TissueProgress
   const PositionFactor factor = size_factor(asked, domain.box);
   PositionFactor squeezed_factor;
   if (factor) squeezed_factor = [&](const Vec2& p) { return factor(map * p); };
-  const Packing packing = make_packing(
+  const Packing& packing = origin.packing = make_packing(
       filled,
       [&](double done, const std::string& what) {
         if (progress) progress(0.7 * done, what);
@@ -84,8 +84,9 @@ Mosaic make_domain_mosaic(const Scene& scene, Notes& notes, const TissueProgress
   DomainTissue tissue = clip_tiles(tiles, squeezed_domain.loops, options, notes);
   draw_out(tissue, map, domain.box);
   const auto before = areas_of(tissue);
-  const int welded = weld_short_edges(tissue, std::max(asked.walls.weld, kLeastWeld) * mean_wall_length(tissue), notes);
-  if (asked.areas) note_welded_areas(before, areas_of(tissue), welded, notes);
+  origin.hidden = static_cast<Index>(tiles.hidden.size());
+  origin.welded = weld_short_edges(tissue, std::max(asked.walls.weld, kLeastWeld) * mean_wall_length(tissue), notes);
+  if (asked.areas) note_welded_areas(before, areas_of(tissue), origin.welded, notes);
   mark_outer_sides(tissue);
   if (!packing.group.empty())
     for (std::size_t c = 0; c < tissue.mosaic.cells.size(); ++c)

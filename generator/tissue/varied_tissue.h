@@ -13,8 +13,9 @@ namespace lamella {
 using TissueProgress = std::function<void(double, const std::string&)>;
 
 /// The tissue of [sample.domain], of the box where [sample.stretch] stands alone: packed, clipped, short edges welded, drawn out. Names
-/// of cells are those of their sites; groups of a mixture are set.
-Mosaic make_domain_mosaic(const Scene& scene, Notes& notes, const TissueProgress& progress);
+/// of cells are those of their sites; groups of a mixture are set. `origin` gets the disks, before they are drawn out, and what was
+/// welded and hidden.
+Mosaic make_domain_mosaic(const Scene& scene, Notes& notes, const TissueProgress& progress, Origin& origin);
 
 /// Groups and thicknesses of cells as [[sample.layers]] and [sample.gradient] say, by the cell's centre: a layer's group replaces what
 /// the cell has unless it is "cells". Notes name layers without a cell.

@@ -2,10 +2,11 @@
 
 #include <fmt/format.h>
 
-#include "generator/generate.h"
 #include "generator/sample/errors.h"
 #include "generator/sample/sample_file.h"
+#include "generator/tissue/mosaic_file.h"
 #include "pipelines/program/accurate_run.h"
+#include "pipelines/program/generating.h"
 #include "pipelines/program/interrupt.h"
 #include "pipelines/program/writable.h"
 #include "postproc/output_file.h"
@@ -20,29 +21,6 @@ namespace {
 namespace fs = std::filesystem;
 
 const Verbosity kNormal = Verbosity::normal;
-
-Sample generate_sample(const Scene& scene, Progress& progress) {
-  if (scene.sample.kind.empty())
-    throw SceneError(
-        fmt::format("{}: sample: missing; describe the geometry in [sample], or simulate a file with --sample",
-                    scene.path.string()));
-  Notes notes;
-  progress.start("generate");
-  Sample sample = generate(scene, notes, [&](double done, const std::string& what) {
-    stop_if_interrupted();
-    progress.show(done, what);
-  });
-  const auto violations = check_sample(sample);
-  if (!violations.empty()) {
-    std::vector<std::string> faults;
-    for (const auto& violation : violations)
-      faults.push_back(fmt::format("{}: sample: {}", scene.path.string(), violation));
-    throw SceneError(faults);
-  }
-  progress.finish();
-  for (const auto& note : notes) progress.say("  " + note);
-  return sample;
-}
 
 /// A scene that was only meant to make a sample says nowhere when its run ends.
 void require_run(const Scene& scene) {
@@ -147,17 +125,6 @@ Scene load_scene(const SceneArguments& arguments) {
   return read_scene(arguments.scene, settings);
 }
 
-void generate_command(const SceneArguments& arguments, const fs::path& out, Verbosity verbosity) {
-  const Scene scene = load_scene(arguments);
-  require_writable_file(out);
-  Progress progress(verbosity);
-  const Sample sample = generate_sample(scene, progress);
-  make_folder(fs::absolute(out).parent_path());
-  write_sample(out, sample);
-  progress.say(fmt::format("{}: {} cells, {} nodes, {} links", out.string(), sample.cells(), sample.nodes(),
-                           sample.links.size()));
-}
-
 void simulate_command(const SceneArguments& arguments, const fs::path& sample_path, const fs::path& out,
                       Beginning beginning, Verbosity verbosity) {
   const Scene scene = load_scene(arguments);
@@ -200,10 +167,11 @@ void run_command(const SceneArguments& arguments, const fs::path& folder, Beginn
   if (beginning == Beginning::resumed && is_begun(trajectory)) {
     resume_to(scene, trajectory, progress);
   } else {
-    const Sample sample = generate_sample(scene, progress);
+    Origin origin;
+    const Sample sample = generate_sample(scene, progress, &origin);
     start_up_summary(sample, scene);  // finds what does not fit, before anything on disk is touched
     make_folder(folder);
-    write_sample(folder / "sample.h5", sample);
+    write_sample(folder / "sample.h5", sample, origin.tiles);
     if (const auto accepted = scene.stages.front().run.accuracy) {
       say_summary(sample, scene, progress);
       const auto scene_at = [&](const std::vector<std::string>& settings) {

@@ -25,7 +25,6 @@ Scene load_scene(const SceneArguments& arguments);
 enum class Beginning { afresh, resumed };
 
 // Each throws SceneError, DataError, SolverError or Interrupted.
-void generate_command(const SceneArguments& arguments, const std::filesystem::path& out, Verbosity verbosity);
 void simulate_command(const SceneArguments& arguments, const std::filesystem::path& sample,
                       const std::filesystem::path& out, Beginning beginning, Verbosity verbosity);
 /// A frame's positions as a sample: extract_sample.

@@ -11,8 +11,10 @@
 #include "pipelines/program/compare.h"
 #include "pipelines/program/ensemble.h"
 #include "pipelines/program/exit_status.h"
+#include "pipelines/program/generating.h"
 #include "pipelines/program/interrupt.h"
 #include "pipelines/program/study.h"
+#include "pipelines/tissue/export.h"
 
 namespace lamella {
 namespace {
@@ -21,7 +23,9 @@ namespace {
 struct Arguments {
   SceneArguments scene;
   std::filesystem::path out, sample, trajectory, accuracy;
-  std::vector<std::filesystem::path> runs;
+  std::vector<std::filesystem::path> runs, exports;
+  std::filesystem::path report;
+  std::string of;
   std::string seeds;
   int jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   int frame = -1;
@@ -86,10 +90,14 @@ int run_program(int argc, char** argv) {
       ->needs(seeds)
       ->capture_default_str();
 
-  CLI::App* generate =
-      subcommand(app, "generate", "Make a sample", "lamella generate scene.toml -o sample.h5 --seed 7");
+  CLI::App* generate = subcommand(app, "generate", "Make a sample",
+                                  "lamella generate scene.toml -o sample.h5 --seed 7\n"
+                                  "  lamella generate scene.toml -o sample.h5 --export cells.tess --report statistics");
   add_scene(generate, a)->required();
   add_out(generate, a, "Sample to write (HDF5)");
+  generate->add_option("--export", a.exports, fmt::format("Cells for other programs as well: {}", kExportEndings))
+      ->allow_extra_args(false);
+  generate->add_option("--report", a.report, "Folder for statistics of the sample, with pictures");
   add_quiet(generate, a);
 
   CLI::App* simulate =
@@ -106,6 +114,16 @@ int run_program(int argc, char** argv) {
   add_out(extract, a, "Sample to write (HDF5)");
   extract->add_option("--frame", a.frame, "Which, from 0; negative: from the end")->capture_default_str();
   add_quiet(extract, a);
+
+  CLI::App* exporting = subcommand(app, "export", "Write the cells of a sample for other programs",
+                                   "lamella export sample.h5 -o cells.off\n"
+                                   "  lamella export trajectory.h5 -o cells.vtp --frame 20");
+  exporting->add_option("FILE", a.sample, "Sample or trajectory (HDF5)")->required();
+  add_out(exporting, a, "File to write, in the format of its ending");
+  exporting->add_option("--of", a.of, "What: tiles (before walls are inset) or outlines; tiles where there are any")
+      ->check(CLI::IsMember({"tiles", "outlines"}));
+  exporting->add_option("--frame", a.frame, "Of a trajectory, from 0; negative: from the end")->capture_default_str();
+  add_quiet(exporting, a);
 
   CLI::App* post = subcommand(app, "post", "Show a trajectory: ParaView files, tables, pictures, report",
                               "lamella post trajectory.h5 -o results");
@@ -161,11 +179,13 @@ int run_program(int argc, char** argv) {
     else if (run->parsed())
       run_command(a.scene, a.out, a.beginning(), a.verbosity());
     else if (generate->parsed())
-      generate_command(a.scene, a.out, a.verbosity());
+      generate_command({a.scene, a.out, a.exports, a.report}, a.verbosity());
     else if (simulate->parsed())
       simulate_command(a.scene, a.sample, a.out, a.beginning(), a.verbosity());
     else if (extract->parsed())
       extract_command(a.trajectory, a.frame, a.out, a.verbosity());
+    else if (exporting->parsed())
+      export_command(a.sample, a.of, a.frame, a.out, a.verbosity());
     else if (post->parsed())
       post_command(a.trajectory, a.out, a.verbosity());
     else if (compare->parsed())

@@ -1,6 +1,7 @@
 #include "postproc/drawing/canvas.h"
 
 #include <cairo-pdf.h>
+#include <cairo-svg.h>
 #include <cairo.h>
 
 #include <algorithm>
@@ -158,35 +159,42 @@ void Canvas::clipped(const Box& box, const std::function<void()>& draw) {
   cairo_restore(cairo);
 }
 
+void draw_file(const std::filesystem::path& path, const Vec2& size, const std::function<void(Canvas&)>& draw) {
+  constexpr double kPixelsPerPoint = 2;
+  const std::string ending = path.extension().string();
+  if (ending != ".png" && ending != ".pdf" && ending != ".svg")
+    throw DataError(path.string() + ": no picture; must end in .png, .pdf or .svg");
+  replace_output(path, [&](const std::filesystem::path& temporary) {
+    const bool pixels = ending == ".png";
+    const double scale = pixels ? kPixelsPerPoint : 1;
+    const SurfaceHandle surface(
+        pixels ? cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(std::lround(scale * size.x())),
+                                            static_cast<int>(std::lround(scale * size.y())))
+        : ending == ".pdf" ? cairo_pdf_surface_create(temporary.c_str(), size.x(), size.y())
+                           : cairo_svg_surface_create(temporary.c_str(), size.x(), size.y()),
+        cairo_surface_destroy);
+    check(cairo_surface_status(surface.get()), path);
+    {
+      const CairoHandle cairo(cairo_create(surface.get()), cairo_destroy);
+      cairo_scale(cairo.get(), scale, scale);
+      cairo_set_source_rgb(cairo.get(), 1, 1, 1);
+      cairo_paint(cairo.get());
+      Canvas canvas(cairo.get());
+      draw(canvas);
+      check(cairo_status(cairo.get()), path);
+    }
+    if (pixels) return check(cairo_surface_write_to_png(surface.get(), temporary.c_str()), path);
+    cairo_surface_finish(surface.get());
+    check(cairo_surface_status(surface.get()), path);
+  });
+}
+
 std::vector<std::filesystem::path> draw_page(const std::filesystem::path& stem, const Vec2& size,
                                              const std::function<void(Canvas&)>& draw) {
-  constexpr double kPixelsPerPoint = 2;
   std::filesystem::path png = stem, pdf = stem;
   png += ".png", pdf += ".pdf";
-  const auto paint = [&](cairo_surface_t* surface, const std::filesystem::path& path, double scale) {
-    check(cairo_surface_status(surface), path);
-    const CairoHandle cairo(cairo_create(surface), cairo_destroy);
-    cairo_scale(cairo.get(), scale, scale);
-    cairo_set_source_rgb(cairo.get(), 1, 1, 1);
-    cairo_paint(cairo.get());
-    Canvas canvas(cairo.get());
-    draw(canvas);
-    check(cairo_status(cairo.get()), path);
-  };
-  replace_output(png, [&](const std::filesystem::path& temporary) {
-    const SurfaceHandle surface(
-        cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(std::lround(kPixelsPerPoint * size.x())),
-                                   static_cast<int>(std::lround(kPixelsPerPoint * size.y()))),
-        cairo_surface_destroy);
-    paint(surface.get(), png, kPixelsPerPoint);
-    check(cairo_surface_write_to_png(surface.get(), temporary.c_str()), png);
-  });
-  replace_output(pdf, [&](const std::filesystem::path& temporary) {
-    const SurfaceHandle surface(cairo_pdf_surface_create(temporary.c_str(), size.x(), size.y()), cairo_surface_destroy);
-    paint(surface.get(), pdf, 1);
-    cairo_surface_finish(surface.get());
-    check(cairo_surface_status(surface.get()), pdf);
-  });
+  draw_file(png, size, draw);
+  draw_file(pdf, size, draw);
   return {png, pdf};
 }
 

@@ -1,4 +1,4 @@
-// Drawing on pages without a display: PNG and PDF by cairo, which stays behind this header. Lengths are points
+// Drawing on pages without a display: PNG, PDF and SVG by cairo, which stays behind this header. Lengths are points
 // (1/72 inch), y down, as on a page.
 #pragma once
 #include <array>
@@ -56,6 +56,10 @@ class Canvas {
  private:
   void* cairo_;
 };
+
+/// Draws a page to one file, in the format that its ending says: .png (two pixels a point, on white), .pdf or .svg. Throws
+/// DataError for other endings, and where the file cannot be written.
+void draw_file(const std::filesystem::path& path, const Vec2& size, const std::function<void(Canvas&)>& draw);
 
 /// Draws the same page as STEM.png (two pixels a point, on white) and STEM.pdf, and returns both paths.
 std::vector<std::filesystem::path> draw_page(const std::filesystem::path& stem, const Vec2& size,

@@ -17,6 +17,12 @@ struct Range {
   void take(const std::vector<double>& values) {
     for (double v : values) low = std::min(low, v), high = std::max(high, v);
   }
+  /// The outer halves of the outermost bars too.
+  void take_bars(const Curve& c) {
+    if (c.drawn != CurveKind::kBars || c.x.size() < 2) return;
+    const double half = 0.5 * (c.x[1] - c.x[0]);
+    take({c.x.front() - half, c.x.back() + half});
+  }
   /// From zero where all is on one side of it, with some air at the far end.
   void round_up() {
     if (low > high) low = 0, high = 1;
@@ -135,13 +141,15 @@ void draw_chart(Canvas& canvas, const Box& page, const Chart& given) {
   const double top = 34 + kLegendRow * static_cast<double>(std::max<std::size_t>(1, legend.size()) - 1);
   const Box plot{page.lo + Vec2(58, top), page.hi - Vec2(right_margin, 44)};
   Range x, y, right;
-  for (const Curve& c : chart.curves) x.take(c.x), y.take(c.y);
+  for (const Curve& c : chart.curves) x.take(c.x), x.take_bars(c), y.take(c.y);
   for (const Curve& c : chart.right_curves) x.take(c.x), right.take(c.y);
   log_y ? y.widen() : y.round_up();
   right.round_up();
   if (x.low > x.high) x.low = 0, x.high = 1;
   if (log_x) x.widen();
-  if (!log_x && x.low > 0 && x.low < 0.3 * x.high) x.low = 0;
+  const bool bars =
+      std::any_of(chart.curves.begin(), chart.curves.end(), [](const Curve& c) { return c.drawn == CurveKind::kBars; });
+  if (!log_x && !bars && x.low > 0 && x.low < 0.3 * x.high) x.low = 0;
   if (x.low == x.high) x.high = x.low + 1;
   const Vec2 span = plot.size();
   const auto to_page = [&](double at_x, double at_y, const Range& axis) {
@@ -181,6 +189,12 @@ void draw_chart(Canvas& canvas, const Box& page, const Chart& given) {
       for (const Curve& c : curves) {
         std::vector<Vec2> points;
         for (std::size_t k = 0; k < c.x.size(); ++k) points.push_back(to_page(c.x[k], c.y[k], axis));
+        if (c.drawn == CurveKind::kBars && points.size() > 1) {
+          const double half = 0.46 * (points[1].x() - points[0].x());
+          for (std::size_t k = 0; k < points.size(); ++k)
+            canvas.rectangle({points[k] - Vec2(half, 0), {points[k].x() + half, to_page(c.x[k], 0, axis).y()}},
+                             c.style.colour);
+        }
         if (c.drawn == CurveKind::kLine) canvas.line(points, c.style);
         if (c.drawn == CurveKind::kDots)
           for (const Vec2& point : points) canvas.dot(point, 2.6, c.style.colour);
@@ -213,6 +227,8 @@ void draw_chart(Canvas& canvas, const Box& page, const Chart& given) {
       place -= canvas.text_width((*c)->label, kLegendText) + kLegendGap;
       if ((*c)->drawn == CurveKind::kDots)
         canvas.dot({place - 0.5 * kLegendLine, base - 3.5}, 2.6, (*c)->style.colour);
+      else if ((*c)->drawn == CurveKind::kBars)
+        canvas.rectangle({{place - kLegendLine + 3, base - 8}, {place - 3, base + 1}}, (*c)->style.colour);
       else
         canvas.line({{place - kLegendLine, base - 3.5}, {place, base - 3.5}},
                     {(*c)->style.colour, 2, (*c)->style.dashes});

@@ -1,4 +1,4 @@
-// Line charts: axes with ticks at round numbers, labels with units, a legend. Knows nothing of what the curves mean.
+// Line and bar charts: axes with ticks at round numbers, labels with units, a legend. Knows nothing of what the curves mean.
 #pragma once
 #include <string>
 #include <vector>
@@ -19,7 +19,8 @@ struct ScaledUnit {
 };
 ScaledUnit scaled_unit(double largest, const std::string& unit);
 
-enum class CurveKind { kLine, kDots };
+/// Bars stand on zero, centred on their x and as wide as x values are apart, with a little air.
+enum class CurveKind { kLine, kDots, kBars };
 
 struct Curve {
   std::vector<double> x, y;

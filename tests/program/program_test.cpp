@@ -24,7 +24,7 @@ class program : public testing::Test {
 
 TEST_F(program, help_shows_an_example_for_each_subcommand) {
   EXPECT_THAT(lamella_program("--help").said, HasSubstr("lamella run scene.toml -o results"));
-  for (const std::string name : {"run", "generate", "simulate", "extract", "post", "describe", "check"}) {
+  for (const std::string name : {"run", "generate", "simulate", "extract", "export", "post", "describe", "check"}) {
     const Outcome help = lamella_program(name + " --help");
     EXPECT_EQ(help.status, 0);
     EXPECT_THAT(help.said, HasSubstr("Example:\n  lamella " + name));

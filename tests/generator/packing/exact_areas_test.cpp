@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 
+#include "generator/packing/domain.h"
 #include "generator/packing/random_sites.h"
 #include "generator/sample/errors.h"
 #include "half_planes.h"
@@ -338,17 +339,32 @@ TEST(RandomSites, fill_the_box_and_differ_by_seed) {
   const std::vector<double> radii = {1, 2, 3, 4};
   PackingScene scene;
   scene.fraction = 0.5;
-  const Packing one = scattered(scene, radii, 0, 0, 1), other = scattered(scene, radii, 0, 0, 2);
+  const Packing one = scattered(scene, radii, {}, 1), other = scattered(scene, radii, {}, 2);
   EXPECT_NEAR(one.fraction, 0.5, 1e-14);
   EXPECT_NEAR(one.box.area(), 30 * std::numbers::pi / 0.5, 1e-10);
   EXPECT_NE(one.disks[0].centre, other.disks[0].centre);
-  const Packing given = scattered(scene, radii, 2, 1, 1);
+  const Packing given = scattered(scene, radii, {.width = 2, .height = 1, .domain = nullptr, .factor = {}}, 1);
   EXPECT_NEAR(given.fraction, 0.5, 1e-14);
   EXPECT_EQ(given.box.hi, Vec2(2, 1));
   for (const Disk& disk : given.disks) EXPECT_TRUE(given.box.contains(disk.centre));
   EXPECT_NEAR(given.disks[3].radius / given.disks[0].radius, 4, 1e-14);
-  for (const double bad : {0.0, -1.0, std::nan("")}) EXPECT_THROW(scattered(scene, {1, bad}, 0, 0, 1), SceneError);
-  EXPECT_THROW(scattered(scene, {}, 0, 0, 1), SceneError);
+  for (const double bad : {0.0, -1.0, std::nan("")}) EXPECT_THROW(scattered(scene, {1, bad}, {}, 1), SceneError);
+  EXPECT_THROW(scattered(scene, {}, {}, 1), SceneError);
+}
+
+TEST(RandomSites, fill_a_domain_and_lie_in_it) {
+  DomainScene ring;
+  ring.kind = "ring";
+  ring.radius = 2;
+  ring.inner_radius = 1;
+  const Domain domain = make_domain(ring);
+  PackingScene scene;
+  scene.fraction = 0.5;
+  const std::vector<double> radii(200, 1.0);
+  const Packing found = scattered(scene, radii, {.width = 0, .height = 0, .domain = &domain, .factor = {}}, 1);
+  EXPECT_NEAR(found.fraction, 0.5, 1e-14);
+  EXPECT_NEAR(area_fraction(found.disks, found.box) * found.box.area(), 0.5 * domain.area, 1e-12);
+  for (const Disk& disk : found.disks) EXPECT_TRUE(domain.contains(disk.centre));
 }
 
 }  // namespace
