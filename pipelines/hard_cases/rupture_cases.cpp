@@ -303,4 +303,33 @@ void many_breaks_in_one_step(StudyBench& bench) {
   report.compare_absolute("breaks and positions that differ in any bit", static_cast<double>(differences), 0, 0);
 }
 
+void missing_links(StudyBench& bench) {
+  StudyReport& report = bench.report;
+  report.section("A tenth of the links absent from the start");
+  report.text(
+      "`tissue.toml` with `walls.missing = 0.1`: mass points that face each other without a link just touch, and "
+      "contact "
+      "must neither push them apart before the load nor let them through under it. The first break of a slow pull is "
+      "where "
+      "one linear solve has it.");
+  const Scene whole = bench.scene("tissue.toml", {"loading.strain_rate=0.002", "stop.stress_drop=0.3"});
+  const Scene scene =
+      bench.scene("tissue.toml", {"sample.walls.missing=0.1", "loading.strain_rate=0.002", "stop.stress_drop=0.3"});
+  const Sample sound = sample_of(whole), flawed = sample_of(scene);
+  report.compare("links, over those of the whole tissue",
+                 static_cast<double>(flawed.links.size()) / static_cast<double>(sound.links.size()), 0.9,
+                 0.6 / static_cast<double>(sound.links.size()));
+  Rig rig(flawed, scene.stages[0]);
+  report.at_most("energy before the load", rig.stored(), 1e-20);
+  const StudyRun run = bench.run("missing_links", flawed, scene);
+  const Tension still = pull_statically(flawed, scene.stages[0]), unhurt = pull_statically(sound, whole.stages[0]);
+  const auto force = run.column("force_b");
+  const double first =
+      run.reader.events().empty() ? 0 : value_at(run.column("time"), force, run.reader.events().front().time);
+  report.compare("load at the first break, over that of a linear solve", first / still.first_break, 1, 0.05);
+  report.at_most("the same of a linear solve, over that of the whole tissue", still.first_break / unhurt.first_break,
+                 1);
+  report.at_most("residual of the energy ledger", run.ledger(), 1e-3);
+}
+
 }  // namespace lamella::hard_cases
