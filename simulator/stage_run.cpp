@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "generator/sample/errors.h"
 #include "simulator/health.h"
@@ -242,33 +243,38 @@ void StageRun::write(TrajectoryWriter& writer, ArraySet arrays, ArraySet restart
   writer.write_frame(frame, last_);
 }
 
-void StageRun::write_events(TrajectoryWriter& writer) {
-  std::vector<Event> events;
-  const auto add = [&](Event event) {
-    event.step = state_.step;
-    event.strain = course_ ? course_->strain() : 0.0;
-    event.stage = index_;
-    events.push_back(event);
+/// Breaks of the step that has just been taken: an explicit one finds them where it begins, at `step` and `strain`, an implicit one where
+/// it ends.
+void StageRun::note_breaks(std::int64_t step, double strain) {
+  const auto links = stepper_->take_breaks();
+  const auto bars = stepper_->take_wall_breaks();
+  if (links.empty() && bars.empty()) return;
+  if (stepper_->implicit()) step = state_.step, strain = this->strain();
+  const auto note = [&](Event event) {
+    event.step = step, event.strain = strain, event.stage = index_;
+    events_.push_back(event);
   };
-  for (const Break& b : stepper_->take_breaks()) {
-    add({.time = model_->links->break_time(b.link),
-         .link = b.link,
-         .position = b.position,
-         .f_n = b.f_n,
-         .f_t = b.f_t,
-         .mode_mix = model_->links->mode_mix_of(b),
-         .energy = b.energy});
+  for (const Break& b : links) {
+    note({.time = model_->links->break_time(b.link),
+          .link = b.link,
+          .position = b.position,
+          .f_n = b.f_n,
+          .f_t = b.f_t,
+          .mode_mix = model_->links->mode_mix_of(b),
+          .energy = b.energy});
   }
-  for (const WallBreak& b : stepper_->take_wall_breaks()) {
-    add({.time = model_->rupture->break_time(b.bar),
-         .link = -1,
-         .bar = b.bar,
-         .position = b.position,
-         .f_n = b.tension,
-         .energy = b.energy});
+  for (const WallBreak& b : bars) {
+    note({.time = model_->rupture->break_time(b.bar),
+          .link = -1,
+          .bar = b.bar,
+          .position = b.position,
+          .f_n = b.tension,
+          .energy = b.energy});
   }
-  std::stable_sort(events.begin(), events.end(), [](const Event& a, const Event& b) { return a.time < b.time; });
-  for (const Event& event : events) writer.add_event(event);
+}
+
+void StageRun::write_events(TrajectoryWriter& writer) {
+  for (const Event& event : std::exchange(events_, {})) writer.add_event(event);
 }
 
 std::string StageRun::run(TrajectoryWriter& writer, const SimulateOptions& options,
@@ -281,7 +287,7 @@ std::string StageRun::run(TrajectoryWriter& writer, const SimulateOptions& optio
     const bool frame = ended || row_ % rows_per_frame_ == 0;
     check_health(*model_, state_.x, state_.time);
     if (frame && row_ > 0) plan_step();
-    const double time = state_.time, strain = course_ ? course_->strain() : 0.0;
+    const double time = state_.time, strain = this->strain();
     const std::int64_t step = state_.step;
     set_pressures();
     std::vector<double> energies;
@@ -307,6 +313,7 @@ std::string StageRun::run(TrajectoryWriter& writer, const SimulateOptions& optio
     set_loads(dt_);
     const Measurement m = stepper_->measured_step(dt_, 0.5 * (dt_ + last_dt_), exerted.size() > 0 ? &exerted : nullptr);
     last_dt_ = dt_;
+    note_breaks(step, strain);
     if (base_.empty()) {
       const Works& w = m.works;
       base_ = {w.loads + pressure_work_, energy + m.kinetic + w.damping + w.friction + w.plastic + w.fracture};
@@ -368,9 +375,12 @@ std::string StageRun::run(TrajectoryWriter& writer, const SimulateOptions& optio
     std::int64_t steps = 1;
     if (!ended)
       for (; steps < steps_per_row_; ++steps) {
+        const std::int64_t before = state_.step;
+        const double reached = this->strain();
         set_pressures();
         set_loads(dt_);
         stepper_->step(dt_, dt_);
+        note_breaks(before, reached);
       }
     facts.seconds += seconds_since(start);
     facts.steps += steps;

@@ -33,7 +33,9 @@ class StageRun final : public StageDriver {
   Row weigh(double energy, const Measurement& m) const;
   void write(TrajectoryWriter& writer, ArraySet arrays, ArraySet restart, double time, std::int64_t step);
   ArraySet restart_arrays() const;
+  void note_breaks(std::int64_t step, double strain);
   void write_events(TrajectoryWriter& writer);
+  double strain() const { return course_ ? course_->strain() : 0.0; }
 
   State state_;
   std::optional<LoadingCourse> course_;
@@ -47,6 +49,7 @@ class StageRun final : public StageDriver {
   std::int64_t steps_per_row_ = 0;
   double dt_ = 0, last_dt_ = 0;  // [s]
   double duration_ = 0;          // expected, or the limit [s]
+  std::vector<Event> events_;    // since the last row
   // history of the stage
   std::vector<double> pressure_lever_;  // of prescribed pressures at the last step [J/Pa]
   double pressure_work_ = 0;            // [J]

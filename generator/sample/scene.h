@@ -117,6 +117,7 @@ struct WallsScene {
   double weld = 0.05;         // edges below this fraction of the mean edge are welded to a point [1]
   std::string links = "all";  // all | ends | none
   double gap = 0;             // extra distance between facing outlines [m]; facing points lie at 2 r + gap
+  double missing = 0;         // share of links that are absent, taken at random [1]
 };
 
 /// [sample.notch]: cells and links that a cut takes away.

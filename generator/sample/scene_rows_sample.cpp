@@ -185,6 +185,11 @@ const std::vector<Row<WallsScene>>& rows() {
        .unit = "m",
        .range = kNotNegative,
        .sentence = "Distance of facing outlines: facing points lie at twice the radius plus this."},
+      {.key = "missing",
+       .member = &S::missing,
+       .unit = "1",
+       .range = between(0, 1),
+       .sentence = "Share of links that are absent from the start, taken at random by the seed."},
   };
   return list;
 }

@@ -17,6 +17,7 @@
 #include "generator/tissue/cell_areas.h"
 #include "generator/tissue/image_tissue.h"
 #include "generator/tissue/lattice.h"
+#include "generator/tissue/missing_links.h"
 #include "generator/tissue/notch.h"
 #include "generator/tissue/polygon_file.h"
 #include "generator/tissue/polygons.h"
@@ -226,6 +227,7 @@ Sample generate(const Scene& scene, Notes& notes, const std::function<void(doubl
         "sample.kind: unknown kind \"{}\"; tissue, rings, honeycomb, bricks, polygons, image or shapes", asked.kind));
   }
   if (asked.notch && !asked.notch->line.empty()) cut_links(asked.notch->line, sample, notes);
+  if (asked.walls.missing > 0) drop_links(asked.walls.missing, scene.seed, sample, notes);
   for (const ShapeScene& shape : asked.shapes)
     add_shape(
         shape, [&](const std::string& group) { return scene.stages.front().cell(group).outline_radius(); }, sample);

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "pipelines/cohesive_zone/grown_crack.h"
+#include "pipelines/cohesive_zone/split_beam.h"
 #include "pipelines/studies/study.h"
 
 namespace lamella {
@@ -124,6 +125,68 @@ void beams(StudyBench& bench) {
                chart);
 }
 
+// ---- a crack between two beams that slide ----
+
+void split(StudyBench& bench) {
+  using B = SplitBeam;
+  StudyReport& report = bench.report;
+  report.section("A crack in shear: an end-loaded split, at rest");
+  report.text(fmt::format(
+      "Two beams of thickness h = {:g}, bonded from x = {:g} on and held at x = L = {:g}, are bent at their free ends, "
+      "both alike: the crack slides and does not open. Arms of rigidity EI share the force P, behind the crack both "
+      "bend as one of EI_b = 2 EI + EA h^2 / 2 = {:g} EI: J s = P^2 a^2 (1 / 4 EI - 1 / 2 EI_b), and linear fracture "
+      "mechanics says at which P the crack stands where the ends have gone a way. Neither needs the zone in which "
+      "links "
+      "soften, over some 5 of length; J is taken from forces and turns alone, P (theta_0 - theta_c) - M_c^2 / 2 EI_b "
+      "with "
+      "a section c ahead of the zone. Where links are few in the zone they go in groups, and the beams part a little "
+      "while "
+      "they do: the mode mix of the broken links, pi / 2 in pure shear, says how much.",
+      B::kThickness, B::kCrack, B::kLength, B::kBonded));
+  ReportTable table{{"spacing", "links gone", "mean of J / G", "lowest", "highest", "error of P, mean",
+                     "mode mix, mean [rad]", "seconds"},
+                    {}};
+  Chart j{.title = "Contour integral while a crack slides", .x_label = "way of the ends", .y_label = "J / G"};
+  Chart p{.title = "End-loaded split", .x_label = "way of the ends", .y_label = "P"};
+  const double toughness = 1.5e-9;
+  int colour = 0;
+  std::vector<double> spacing, error;
+  for (const int n : bench.small() ? std::vector<int>{100} : std::vector<int>{50, 100, 200, 400}) {
+    const SplitCrack grown = slide_crack(bench, n, 5, toughness);
+    const double l = B::kLength / n;
+    table.rows.push_back({fmt::format("{:g}", l), fmt::format("{}", grown.broken), fmt::format("{:.4f}", grown.mean),
+                          fmt::format("{:.3f}", grown.lowest), fmt::format("{:.3f}", grown.highest),
+                          fmt::format("{:.2g} %", 100 * grown.force_error), fmt::format("{:.3f}", grown.mode_mix),
+                          fmt::format("{:.2g}", grown.seconds)});
+    spacing.push_back(l), error.push_back(grown.force_error);
+    if (l <= 1) {
+      report.compare(fmt::format("spacing {:g}: mean of J / G", l), grown.mean, 1, l < 1 ? 5e-3 : 2e-2);
+      report.at_most(fmt::format("spacing {:g}: P against linear fracture mechanics, mean error", l), grown.force_error,
+                     l < 1 ? 1e-2 : 2e-2);
+      if (l < 1) report.at_least(fmt::format("spacing {:g}: mean mode mix [rad]", l), grown.mode_mix, 1.5);
+    }
+    j.curves.push_back(line_curve(colour, fmt::format("spacing {:g}", l), grown.way, grown.ratio));
+    p.curves.push_back(dotted_curve(colour++, fmt::format("spacing {:g}", l), grown.way, grown.force));
+  }
+  if (!bench.small()) {
+    bool falls = true;
+    for (std::size_t k = 1; k < error.size(); ++k) falls = falls && error[k] < error[k - 1];
+    report.holds("error of P falls whenever the spacing is halved", falls,
+                 fmt::format("order {:.2f} from spacing {:g} to {:g}",
+                             std::log(error.front() / error.back()) / std::log(spacing.front() / spacing.back()),
+                             spacing.front(), spacing.back()));
+  }
+  std::vector<double> x, y;
+  for (double a = B::kCrack; a <= 85; a += 0.5) {
+    y.push_back(std::sqrt(toughness / B::release(1, a))), x.push_back(B::way(y.back(), a));
+  }
+  p.curves.push_back(line_curve(colour, "linear fracture mechanics", x, y));
+  report.table(table);
+  report.chart("split_contour_integral", "J rises to the toughness in shear, and stays there while the crack grows.",
+               j);
+  report.chart("split_force", "The force at the ends, beside that at which the crack stands.", p);
+}
+
 // ---- a honeycomb ----
 
 struct Torn {
@@ -194,6 +257,7 @@ void honeycomb(StudyBench& bench) {
 void study_cohesive_zone(StudyBench& bench) {
   one_link(bench);
   beams(bench);
+  split(bench);
   honeycomb(bench);
 }
 

@@ -74,30 +74,6 @@ Scene scene_of_sites(StudyBench& bench, const std::string& scene, const std::str
   return bench.scene(scene, settings);
 }
 
-/// The same cells, with one segment more in some of them: `length` behind a corner that carries a link.
-Sample with_tiny_segments(const Sample& from, double length) {
-  Sample out;
-  std::vector<Index> at(from.nodes());
-  for (Index c = 0; c < from.cells(); ++c) {
-    std::vector<Vec2> points;
-    std::vector<std::uint8_t> side;
-    for (Index i = from.cell_begin[c]; i < from.cell_begin[c + 1]; ++i) {
-      at[i] = out.nodes() + static_cast<Index>(points.size());
-      points.push_back(from.x[i]), side.push_back(from.side[i]);
-      if (i != from.cell_begin[c]) continue;
-      points.push_back(from.x[i] + length * (from.x[from.next(c, i)] - from.x[i]).normalized());
-      side.push_back(from.side[i] & from.side[from.next(c, i)]);
-    }
-    const Index begin = out.nodes();
-    add_cell(out, points, true, from.radius[c], "cells");
-    std::copy(side.begin(), side.end(), out.side.begin() + begin);
-  }
-  out.box = from.box, out.tile_area = from.tile_area, out.walls = from.walls, out.links = from.links;
-  for (Link& l : out.links)
-    for (Index* node : {&l.a, &l.b, &l.a_prev, &l.a_next, &l.b_prev, &l.b_next}) *node = at[*node];
-  return out;
-}
-
 }  // namespace
 
 void tiny_edges(StudyBench& bench) {

@@ -15,6 +15,7 @@ void study_hard_cases(StudyBench& bench) {
   contact_after_rupture(bench);
   rupture_under_compression(bench);
   many_breaks_in_one_step(bench);
+  missing_links(bench);
   fast_impact(bench);
   self_contact_and_pass_through(bench);
   friction(bench);

@@ -19,6 +19,7 @@ void snap_back(StudyBench& bench);
 void contact_after_rupture(StudyBench& bench);
 void rupture_under_compression(StudyBench& bench);
 void many_breaks_in_one_step(StudyBench& bench);
+void missing_links(StudyBench& bench);
 
 // contact_cases.cpp: cells meet
 void fast_impact(StudyBench& bench);

@@ -303,4 +303,37 @@ void many_breaks_in_one_step(StudyBench& bench) {
   report.compare_absolute("breaks and positions that differ in any bit", static_cast<double>(differences), 0, 0);
 }
 
+void missing_links(StudyBench& bench) {
+  StudyReport& report = bench.report;
+  report.section("A tenth of the links absent from the start");
+  report.text(
+      "`tissue.toml` with `walls.missing = 0.1`: mass points that face each other without a link just touch, and "
+      "contact must neither push them apart before the load nor let them through under it. Pulled slowly, the first "
+      "link breaks at the strain at which it does at rest (`run.stepper = \"quasi_static\"`).");
+  const std::vector<std::string> missing{"sample.walls.missing=0.1"};
+  const Scene scene = bench.scene("tissue.toml", missing);
+  const Sample whole = sample_of(bench.scene("tissue.toml")), flawed = sample_of(scene);
+  const auto all = static_cast<double>(whole.links.size());
+  report.compare("links, over those of the whole tissue", static_cast<double>(flawed.links.size()) / all, 0.9,
+                 0.6 / all);
+  report.at_most("energy before the load", Rig(flawed, scene.stages[0]).stored(), 1e-20);
+  const auto first_of = [&](const std::string& name, std::vector<std::string> more) {
+    more.insert(more.end(), {"sample.walls.missing=0.1", "loading.strain=0.0025", "output.frames=2"});
+    const StudyRun run = bench.run("missing_links_" + name, flawed, bench.scene("tissue.toml", more));
+    return run.reader.events().empty() ? Event{} : run.reader.events().front();
+  };
+  const Event rest = first_of("rest", {"run.stepper=\"quasi_static\""});
+  for (const double rate : {2e-4, 5e-5}) {
+    const Event slow =
+        first_of(fmt::format("{:g}", rate), {fmt::format("loading.strain_rate={}", rate), "loading.ramp_strain=1e-4"});
+    report.compare(fmt::format("strain at the first break, rate {:g}, over that at rest", rate),
+                   slow.strain / rest.strain, 1, rate > 1e-4 ? 0.02 : 0.005);
+    report.holds(fmt::format("rate {:g}: the same link", rate), slow.link == rest.link,
+                 fmt::format("link {} in time, {} at rest", slow.link, rest.link));
+  }
+  const StudyRun torn = bench.run("missing_links", flawed, scene);
+  report.holds("torn in two", torn.facts.ended.starts_with("separated"), torn.facts.ended);
+  report.at_most("residual of the energy ledger", torn.ledger(), 1e-3);
+}
+
 }  // namespace lamella::hard_cases

@@ -150,6 +150,29 @@ bool crosses_itself(const Sample& sample, Index cell, const std::vector<Vec2>& x
   return false;
 }
 
+Sample with_tiny_segments(const Sample& from, double length) {
+  Sample out;
+  std::vector<Index> at(from.nodes());
+  for (Index c = 0; c < from.cells(); ++c) {
+    std::vector<Vec2> points;
+    std::vector<std::uint8_t> side;
+    for (Index i = from.cell_begin[c]; i < from.cell_begin[c + 1]; ++i) {
+      at[i] = out.nodes() + static_cast<Index>(points.size());
+      points.push_back(from.x[i]), side.push_back(from.side[i]);
+      if (i != from.cell_begin[c]) continue;
+      points.push_back(from.x[i] + length * (from.x[from.next(c, i)] - from.x[i]).normalized());
+      side.push_back(from.side[i] & from.side[from.next(c, i)]);
+    }
+    const Index begin = out.nodes();
+    add_cell(out, points, true, from.radius[c], "cells");
+    std::copy(side.begin(), side.end(), out.side.begin() + begin);
+  }
+  out.box = from.box, out.tile_area = from.tile_area, out.walls = from.walls, out.links = from.links;
+  for (Link& l : out.links)
+    for (Index* node : {&l.a, &l.b, &l.a_prev, &l.a_next, &l.b_prev, &l.b_next}) *node = at[*node];
+  return out;
+}
+
 double slope_of(const std::vector<double>& x, const std::vector<double>& y, double low, double high) {
   double n = 0, mx = 0, my = 0, xx = 0, xy = 0;
   for (std::size_t k = 0; k < x.size(); ++k)

@@ -47,6 +47,9 @@ double area_of(const Sample& sample, Index cell, const std::vector<Vec2>& x);
 /// Whether two segments of the cell, not neighbours, cross.
 bool crosses_itself(const Sample& sample, Index cell, const std::vector<Vec2>& x);
 
+/// The same cells, all closed, each with one segment more: of `length` [m] behind its first node.
+Sample with_tiny_segments(const Sample& from, double length);
+
 /// Slope of y over x by least squares, of the points with low <= x <= high.
 double slope_of(const std::vector<double>& x, const std::vector<double>& y, double low, double high);
 

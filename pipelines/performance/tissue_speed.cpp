@@ -1,17 +1,20 @@
-// Times the explicit step of a scene, and counts its bytes. Writes one `name value` a line.
+// Times the explicit step of a scene, and counts its bytes; times a whole run at rest. Writes one `name value` a line.
 //   tissue_speed speed SCENE STEPS THREADS [section.key=value ...]
 //   tissue_speed memory SCENE [section.key=value ...]
+//   tissue_speed rest SCENE FOLDER [section.key=value ...]
 //   tissue_speed lammps SCENE FOLDER [section.key=value ...]
 #include <fmt/core.h>
 #include <sys/resource.h>
 #include <time.h>
 
+#include <algorithm>
 #include <chrono>
 #include <numeric>
 
 #include "generator/generate.h"
 #include "generator/sample/errors.h"
 #include "pipelines/performance/tissue_lammps.h"
+#include "simulator/simulate.h"
 #include "simulator/steppers/velocity_verlet.h"
 
 namespace lamella {
@@ -90,17 +93,40 @@ void count_bytes(const Tissue& tissue) {
     fmt::print("{} {:.1f}\n", term->name(), static_cast<double>(term->bytes()) / nodes);
 }
 
+/// The run that `lamella simulate` does, rows and frames included.
+void time_at_rest(const Tissue& tissue, const std::filesystem::path& folder) {
+  const auto path = folder / "at_rest.h5";
+  TrajectoryWriter writer(path, tissue.sample, {});
+  const double start = processor_seconds();
+  const RunFacts facts = simulate(tissue.sample, tissue.scene, writer, {});
+  const double seconds = processor_seconds() - start;
+  const TrajectoryReader reader(path);
+  const Response& response = reader.response();
+  const auto stress = std::find(response.columns.begin(), response.columns.end(), "stress") - response.columns.begin();
+  double peak = 0;
+  for (const auto& row : response.rows) peak = std::max(peak, row.at(static_cast<std::size_t>(stress)));
+  const SolverCost& cost = facts.static_cost;
+  fmt::print("cells {}\nnodes {}\nlinks {}\n", tissue.sample.cells(), tissue.sample.nodes(),
+             tissue.sample.links.size());
+  fmt::print("breaks {}\npeak_stress {:.9g}\nprocessor_seconds {:.6g}\n", reader.events().size(), peak, seconds);
+  fmt::print("equilibria {}\niterations {}\nfactorisations {}\npeak_megabytes {:.1f}\n", cost.searches, cost.iterations,
+             cost.factorizations, peak_megabytes());
+  fmt::print("ended {}\n", facts.ended);
+}
+
 int run(int count, char** arguments) {
   const std::string what = count > 2 ? arguments[1] : "";
-  const int fixed = what == "speed" ? 5 : what == "lammps" ? 4 : what == "memory" ? 3 : count + 1;
+  const int fixed = what == "speed" ? 5 : what == "lammps" || what == "rest" ? 4 : what == "memory" ? 3 : count + 1;
   if (count < fixed) {
     fmt::print(stderr,
-               "tissue_speed: speed SCENE STEPS THREADS | memory SCENE | lammps SCENE FOLDER; then key=value\n");
+               "tissue_speed: speed SCENE STEPS THREADS | memory SCENE | rest SCENE FOLDER | lammps SCENE FOLDER; then "
+               "key=value\n");
     return 2;
   }
   Tissue tissue(arguments[2], {arguments + fixed, arguments + count});
   if (what == "speed") time_steps(tissue, std::stoi(arguments[3]), std::stoi(arguments[4]));
   if (what == "memory") count_bytes(tissue);
+  if (what == "rest") time_at_rest(tissue, arguments[3]);
   if (what == "lammps") {
     const std::filesystem::path folder = arguments[3];
     write_lammps_data(tissue.sample, tissue.loads, folder / "tissue.data");

@@ -16,6 +16,8 @@ void honeycombs(StudyBench& bench);
 // tearing_at_rest.cpp: what happens behind the first break
 void snap_back(StudyBench& bench);
 void softening(StudyBench& bench);
+
+// spacing_at_rest.cpp
 void spacing(StudyBench& bench);
 
 // hard_cases_at_rest.cpp

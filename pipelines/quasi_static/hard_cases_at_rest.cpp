@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <optional>
 #include <set>
 
 #include "generator/sample/errors.h"
@@ -38,6 +40,16 @@ class Cases {
   ReportTable table_{{"case", "breaks", "equilibria", "factorisations", "seconds"}, {}};
 };
 
+/// Links that break in both runs, over those that do in either.
+double overlap_of_breaks(const StudyRun& a, const StudyRun& b) {
+  std::set<int> in_a, either;
+  std::size_t both = 0;
+  for (const Event& e : a.reader.events()) in_a.insert(e.link);
+  either = in_a;
+  for (const Event& e : b.reader.events()) both += in_a.count(e.link), either.insert(e.link);
+  return either.empty() ? 1 : static_cast<double>(both) / static_cast<double>(either.size());
+}
+
 bool in_two(const StudyRun& run) { return run.facts.ended.starts_with("separated"); }
 
 /// The scene without [links], on its sample without any.
@@ -46,6 +58,67 @@ StudyRun unlinked(StudyBench& bench, const std::string& name, Scene scene) {
   sample.links.clear();
   for (Stage& stage : scene.stages) stage.links.clear(), stage.contact.reset();
   return bench.attempt(name, sample, scene);
+}
+
+/// Edges and segments of a thousandth of the others: bars a thousand times as stiff beside them.
+void tiny_edges(StudyBench& bench, Cases& cases, const Settings& settings, const StudyRun& torn) {
+  const auto shortest_of = [](const std::vector<double>& lengths) {
+    const double mean = std::accumulate(lengths.begin(), lengths.end(), 0.0) / static_cast<double>(lengths.size());
+    return *std::min_element(lengths.begin(), lengths.end()) / mean;
+  };
+  const auto seen = [&](const StudyRun& run, const std::string& what) {
+    const SolverCost &cost = run.facts.static_cost, &plain = torn.facts.static_cost;
+    return fmt::format("{}; peak {:.5f} of that without, {:.2f} of its links too; {} iterations instead of {}", what,
+                       peak(run) / peak(torn), overlap_of_breaks(run, torn), cost.iterations, plain.iterations);
+  };
+  const auto near = [&](const StudyRun& run, double band) {
+    return in_two(run) && std::abs(peak(run) / peak(torn) - 1) < band;
+  };
+  const Scene scene = bench.scene("tissue.toml", settings);
+  const Sample& welded = torn.reader.sample();
+  const double mean = std::accumulate(welded.rest_length.begin(), welded.rest_length.end(), 0.0) / welded.nodes();
+  const Sample split = hard_cases::with_tiny_segments(welded, 1e-3 * mean);
+  const StudyRun tiny = bench.attempt("tiny_segments", split, scene);
+  cases.add("tiny segments, one in each cell", "torn in two; peak within 1 %", near(tiny, 0.01),
+            seen(tiny, fmt::format("shortest segment {:.2g} of the mean", shortest_of(split.rest_length))), tiny);
+}
+
+/// Brittle links break first where walls end on a free side, notch or none: they soften here. Returns the run of the deepest notch.
+StudyRun notches(StudyBench& bench, Cases& cases) {
+  const Settings soft{"loading.strain=0.6", "links.law=\"cohesive_zone\"", "links.toughness=0.0256"};
+  const StudyRun whole = bench.attempt("soft", "tissue.toml", soft);
+  std::optional<StudyRun> last;
+  for (const double tip : {4.0, 5.0, 6.0}) {
+    Settings settings = soft;
+    settings.push_back(fmt::format("sample.notch.line=[[-1, 5], [{:g}, 5]]", tip));
+    StudyRun run = bench.attempt(fmt::format("notched_{:g}", tip), "tissue.toml", settings);
+    const auto& events = run.reader.events();
+    const Vec2 first = events.empty() ? Vec2(-9, -9) : events.front().position;
+    const double away = (first - Vec2(tip, 5)).norm();
+    cases.add(fmt::format("notch over {:g} of the width, links that soften", tip / 10),
+              "weaker, first break within 1 of its tip (cells are 1.7 across), torn in two",
+              in_two(run) && peak(run) < peak(whole) && away < 1,
+              fmt::format("peak {:.3f} of the whole tissue's; first break at ({:.2f}, {:.2f}), {:.2f} from the tip",
+                          peak(run) / peak(whole), first.x(), first.y(), away),
+              run);
+    last.emplace(std::move(run));
+  }
+  return std::move(*last);
+}
+
+/// A tenth of the links absent from the start, contact in their place: no force before the load, and weaker.
+void missing_links(StudyBench& bench, Cases& cases, Settings settings, const StudyRun& torn) {
+  settings.insert(settings.end(), {"sample.walls.missing=0.1", "contact.friction=0"});
+  const StudyRun flawed = bench.attempt("missing_links", "tissue.toml", settings);
+  const auto all = torn.reader.sample().links.size(), left = flawed.reader.sample().links.size();
+  const double before = flawed.column("stress").front();
+  cases.add("a tenth of the links absent from the start, with contact",
+            "so many of them, no stress at strain 0, weaker, torn in two",
+            in_two(flawed) && left == all - static_cast<std::size_t>(std::lround(0.1 * static_cast<double>(all))) &&
+                std::abs(before) < 1e-9 && peak(flawed) < peak(torn),
+            fmt::format("{} of {} links; stress {:.1e}; peak {:.3f} of the whole tissue's", left, all, before,
+                        peak(flawed) / peak(torn)),
+            flawed);
 }
 
 void tissues(StudyBench& bench, Cases& cases) {
@@ -63,21 +136,9 @@ void tissues(StudyBench& bench, Cases& cases) {
                                                               "sample.packing.count=16", "sample.walls.segments=3"}));
   cases.add("no links", "rest is found, without stress", loose.error.empty() && std::abs(loose.last("stress")) < 1e-9,
             fmt::format("{}; stress {:.1e}", loose.facts.ended, loose.last("stress")), loose);
-  const StudyRun notched = bench.attempt("notched", "tissue.toml", with({"sample.notch.line=[[-1, 5], [4, 5]]"}));
-  const double x = notched.reader.events().empty() ? -1 : notched.reader.events().front().position.x();
-  cases.add("notch over 0.4 of the width", "weaker, and torn in two", in_two(notched) && peak(notched) < peak(torn),
-            fmt::format("peak {:.3f} of the whole tissue's; first break at x = {:.2f}", peak(notched) / peak(torn), x),
-            notched);
-  const StudyRun tiny = bench.attempt("tiny_edges", "tissue.toml", with({"sample.walls.weld=0"}));
-  double shortest = 1e300, mean = 0;
-  const Sample& s = tiny.reader.sample();
-  for (const Wall& wall : s.walls)
-    shortest = std::min(shortest, wall.length), mean += wall.length / static_cast<double>(s.walls.size());
-  cases.add("tiny edges", "torn in two; peak within 5 % of that with short edges welded",
-            in_two(tiny) && std::abs(peak(tiny) / peak(torn) - 1) < 0.05,
-            fmt::format("shortest wall {:.3g} of the mean; peak {:.3f} of the welded one's", shortest / mean,
-                        peak(tiny) / peak(torn)),
-            tiny);
+  const StudyRun notched = notches(bench, cases);
+  tiny_edges(bench, cases, with({}), torn);
+  missing_links(bench, cases, with({}), torn);
   const StudyRun pressed =
       bench.attempt("pressed", "tissue.toml",
                     with({"loading.kind=\"compression\"", "loading.strain=0.1", "links.normal_strength=100",

@@ -1,4 +1,4 @@
-// Behind the first break: curves that drop or snap back, links that soften, and what the spacing of links does to strength.
+// Behind the first break: curves that drop or snap back, and links that soften.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -122,53 +122,6 @@ void softening(StudyBench& bench) {
   }
   report.table(table);
   report.chart("contour_integral", "J rises to the toughness, and stays there while the crack grows.", chart);
-}
-
-void spacing(StudyBench& bench) {
-  StudyReport& report = bench.report;
-  report.section("A tissue: the spacing of the links");
-  report.text(
-      "Thirty-six cells (`tissue.toml`), m segments a wall, strengths per length of wall. The peak of brittle links "
-      "falls as they come closer to the corners; that of links that soften (toughness 0.0256: over 0.4 of a wall) "
-      "settles.");
-  const std::vector<int> all = bench.small() ? std::vector<int>{4, 8, 12} : std::vector<int>{3, 4, 6, 8, 12, 16, 24};
-  Chart chart{
-      .title = "Strength of a tissue", .x_label = "segments a wall m", .y_label = "peak stress / f_n0 per length"};
-  chart.x_scale = Scale::kLogarithmic;
-  ReportTable table{{"m"}, {}};
-  for (const int m : all) table.rows.push_back({fmt::format("{}", m)});
-  int colour = 0;
-  for (const bool softens : {false, true})
-    for (const double k_n : bench.small() ? std::vector<double>{200} : std::vector<double>{200, 2000}) {
-      std::vector<double> x, y;
-      double time = 0;
-      const std::string name = fmt::format("{}, k_n = {:g}", softens ? "softening" : "brittle", k_n);
-      table.head.push_back(name);
-      for (std::size_t k = 0; k < all.size(); ++k) {
-        std::vector<std::string> settings{
-            fmt::format("sample.walls.segments={}", all[k]), fmt::format("links.normal_stiffness={}", k_n),
-            fmt::format("links.tangential_stiffness={}", 0.3 * k_n), "stop.stress_drop=0.7", "run.load_steps=600"};
-        if (softens) settings.insert(settings.end(), {"links.law=\"cohesive_zone\"", "links.toughness=0.0256"});
-        const StudyRun run =
-            bench.attempt(fmt::format("spacing_{}_{:g}_{}", softens, k_n, all[k]), "tissue.toml", settings);
-        const auto stress = run.column("stress");
-        x.push_back(all[k]), y.push_back(*std::max_element(stress.begin(), stress.end()));
-        time += run.facts.seconds;
-        table.rows[k].push_back(fmt::format("{:.4f}", y.back()));
-        if (!run.error.empty()) report.holds(fmt::format("{}, m = {}: found its way", name, all[k]), false, run.error);
-      }
-      const auto at = [&](int m) { return y[std::find(all.begin(), all.end(), m) - all.begin()]; };
-      if (softens)
-        for (const int m : all)
-          if (m >= 8 && m < all.back())
-            report.compare(fmt::format("{}: peak at m = {} over that at m = {}", name, m, all.back()), at(m) / y.back(),
-                           1, 3e-2);
-      if (!softens)
-        report.at_least(fmt::format("{}: peak at m = 4 over that at m = {}", name, all.back()), at(4) / y.back(), 1.25);
-      chart.curves.push_back(line_curve(colour, name, x, y)), chart.curves.push_back(dotted_curve(colour++, "", x, y));
-    }
-  report.table(table);
-  report.chart("spacing", "Peak stress by the spacing of the links, at rest.", chart);
 }
 
 }  // namespace lamella::at_rest

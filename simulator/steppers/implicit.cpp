@@ -99,9 +99,9 @@ void ImplicitStepper::step(double dt, double /*kick*/) {
                           (force_.at(i)[c] + dead.at(i)[c]) * way[c];
         }
     }
-  commit_and_break();
   state_.time += dt;
   ++state_.step;
+  commit_and_break();
 }
 
 void ImplicitStepper::commit_and_break() {

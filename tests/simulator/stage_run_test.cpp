@@ -221,6 +221,29 @@ TEST(StageRun, links_that_soften_resume_to_the_same_bits_and_keep_their_damage_f
   EXPECT_GT(softening, 5);
 }
 
+TEST(StageRun, a_break_between_two_rows_has_the_step_and_the_strain_of_its_own_time) {
+  const TemporaryFolder folder;
+  const Sample squares = two_bonded_squares(4);
+  for (const std::string stepper : {"velocity_verlet", "backward_euler", "generalised_alpha"}) {
+    Scene scene = torn();
+    scene.stages[0].loading->strain = 0.05;
+    for (Stage& stage : scene.stages) {
+      stage.run.stepper = stepper, stage.output.response = 5;  // few rows: a break is far from the next
+      stage.run.time_step = stepper == "velocity_verlet" ? 1e-3 : 0.02;
+    }
+    TrajectoryWriter writer(folder / stepper, squares, {});
+    simulate(squares, scene, writer, {});
+    const TrajectoryReader reader(folder / stepper);
+    ASSERT_EQ(reader.events().size(), 5u) << stepper;
+    const double dt = 5.0 / std::round(5.0 / *scene.stages[0].run.time_step);  // the stage takes 5 s
+    for (const Event& event : reader.events()) {
+      EXPECT_NEAR(static_cast<double>(event.step) * dt, event.time, 1e-9) << stepper;
+      EXPECT_NEAR(event.strain, 0.01 * event.time, 1e-9) << stepper;
+      EXPECT_GT(std::abs(event.time - std::round(event.time)), dt) << stepper << ": on a row, the test says nothing";
+    }
+  }
+}
+
 /// A ring in a box whose lid comes down, and goes up again.
 Scene pressed(const std::vector<std::string>& settings) {
   return parse_scene(R"(
