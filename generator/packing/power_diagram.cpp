@@ -6,6 +6,7 @@
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -34,9 +35,10 @@ std::array<Number, 2> power_centre(const std::array<Disk, 3>& d) {
 }
 
 Vec2 vertex_position(std::array<Disk, 3> d) {
-  // Relative to the smallest disk, so that tiny cells far from the origin keep their digits.
-  if (d[1].radius < d[0].radius) std::swap(d[0], d[1]);
-  if (d[2].radius < d[0].radius) std::swap(d[0], d[2]);
+  // Relative to the smallest disk, so that tiny cells far from the origin keep their digits. All three in an order of their own: that in
+  // which the triangulation names them depends on where it lies in memory, and the last bit on the order.
+  const auto key = [](const Disk& disk) { return std::array{disk.radius, disk.centre.x(), disk.centre.y()}; };
+  std::sort(d.begin(), d.end(), [&](const Disk& p, const Disk& q) { return key(p) < key(q); });
   const Vec2 b = d[1].centre - d[0].centre, c = d[2].centre - d[0].centre;
   // Nearly collinear: the vertex is far away, and rounding could put it on the wrong side altogether.
   if (std::abs(cross(b, c)) < 1e-4 * b.norm() * c.norm()) {

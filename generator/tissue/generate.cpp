@@ -152,8 +152,8 @@ Sample generate(const Scene& scene, Notes& notes, const std::function<void(doubl
     if (asked.shapes.empty()) throw SceneError("sample: kind = \"shapes\" needs at least one [[sample.shapes]]");
     sample.cell_begin.push_back(0);
   } else {
-    throw SceneError(
-        fmt::format("sample.kind: unknown kind \"{}\"; tissue, rings, honeycomb, bricks, polygons or shapes", asked.kind));
+    throw SceneError(fmt::format(
+        "sample.kind: unknown kind \"{}\"; tissue, rings, honeycomb, bricks, polygons or shapes", asked.kind));
   }
   if (asked.notch && !asked.notch->line.empty()) cut_links(asked.notch->line, sample, notes);
   for (const ShapeScene& shape : asked.shapes)

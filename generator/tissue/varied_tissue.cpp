@@ -44,6 +44,8 @@ void draw_out(DomainTissue& tissue, const Eigen::Matrix2d& map, const Box& box) 
 
 Mosaic make_domain_mosaic(const Scene& scene, Notes& notes, const TissueProgress& progress) {
   const SampleScene& asked = scene.sample;
+  if (asked.areas) throw SceneError("sample.areas: only in a box, without a domain or a stretch; remove one of them");
+  if (asked.periodic != "none") throw SceneError("sample.periodic: not with a domain or a stretch, whose cells end");
   const Domain domain = asked_domain(asked);
   const Eigen::Matrix2d map = asked.stretch ? stretch_map(*asked.stretch) : Eigen::Matrix2d::Identity();
   Scene filled = scene;
@@ -65,7 +67,10 @@ Mosaic make_domain_mosaic(const Scene& scene, Notes& notes, const TissueProgress
   if (asked.packing.duplicates == "keep_first") options = {Duplicates::kKeepFirst, Hidden::kReport};
   Tessellation tiles = tessellate(packing.disks, box_around(squeezed_domain.loops, packing.disks), options);
   report_hidden(tiles, notes);
-  weld_short_edges(tiles, std::max(asked.walls.weld, 1e-9) * mean_edge_length(tiles));
+  const double threshold = std::max(asked.walls.weld, 1e-9) * mean_edge_length(tiles);
+  if (const int welded = weld_short_edges(tiles, threshold); welded > 0)
+    notes.push_back(fmt::format("{} edges of at most {:.3g} m welded to a point, inside the domain or beside it",
+                                welded, threshold));
   DomainTissue tissue = clip_tiles(tiles, squeezed_domain.loops, options, notes);
   draw_out(tissue, map, domain.box);
   weld_short_edges(tissue, std::max(asked.walls.weld, kLeastWeld) * mean_wall_length(tissue), notes);
@@ -91,17 +96,16 @@ void vary_cells(Mosaic& mosaic, const SampleScene& scene, Notes& notes) {
   }
   for (std::size_t k = 0; k < held.size(); ++k)
     if (held[k] == 0)
-      notes.push_back(fmt::format("sample.layers: layer {} (group \"{}\") holds the centre of no cell: {}", k,
-                                  scene.layers[k].group,
-                                  k + 1 < held.size() ? "it lies elsewhere, is thinner than a cell, or later layers cover it"
-                                                      : "it lies elsewhere, or is thinner than a cell"));
+      notes.push_back(fmt::format(
+          "sample.layers: layer {} (group \"{}\") holds the centre of no cell: {}", k, scene.layers[k].group,
+          k + 1 < held.size() ? "it lies elsewhere, is thinner than a cell, or later layers cover it"
+                              : "it lies elsewhere, or is thinner than a cell"));
 }
 
 void vary_links(Sample& sample, const SampleScene& scene) {
   if (!sample.cell_thickness.empty()) sample.cell_thickness.resize(sample.cells(), 1);
   if (!scene.gradient) return;
-  const PositionFactor strength =
-      gradient_factor(*scene.gradient, scene.gradient->strength, "strength", sample.box);
+  const PositionFactor strength = gradient_factor(*scene.gradient, scene.gradient->strength, "strength", sample.box);
   if (!strength) return;
   for (std::size_t l = 0; l < sample.links.size(); ++l) {
     Vec2 b = sample.x[sample.links[l].b];
