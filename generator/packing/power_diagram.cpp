@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace lamella {
@@ -93,6 +94,28 @@ void collect_cells(Triangulation& triangulation, const std::vector<Disk>& disks,
   }
 }
 
+/// The triangulation lists edges, and their ends, as they lie in memory, which is not the same from one call to the next: here they are listed by
+/// their sites, from the lower to the higher, and rings begin with their first edge.
+void put_in_order(PowerDiagram& diagram, std::vector<std::vector<Index>>& rings) {
+  for (PowerEdge& edge : diagram.edges)
+    if (edge.b < edge.a) std::swap(edge.a, edge.b), std::swap(edge.begin, edge.end);
+  std::vector<Index> order(diagram.edges.size()), rank(diagram.edges.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto key = [&](Index e) { return std::pair{diagram.edges[e].a, diagram.edges[e].b}; };
+  std::sort(order.begin(), order.end(), [&](Index e, Index f) { return key(e) < key(f); });
+  std::vector<PowerEdge> sorted;
+  sorted.reserve(order.size());
+  for (const Index e : order) {
+    rank[e] = static_cast<Index>(sorted.size());
+    sorted.push_back(diagram.edges[e]);
+  }
+  diagram.edges = std::move(sorted);
+  for (auto& ring : rings) {
+    for (Index& e : ring) e = rank[e];
+    std::rotate(ring.begin(), std::min_element(ring.begin(), ring.end()), ring.end());
+  }
+}
+
 }  // namespace
 
 PowerDiagram power_diagram(const std::vector<Disk>& disks, const std::vector<Index>& sites) {
@@ -114,6 +137,7 @@ PowerDiagram power_diagram(const std::vector<Disk>& disks, const std::vector<Ind
     collect_strips(triangulation, diagram, rings);
   else
     collect_cells(triangulation, disks, diagram, rings);
+  put_in_order(diagram, rings);
 
   diagram.ring_begin.push_back(0);
   for (const auto& ring : rings) {
