@@ -154,7 +154,9 @@ void check_toughness(const LinkScene& scene, const ZoneLink& unit) {
       less * unit.strength_n, force, less * unit.strength_t, force));
 }
 
-double strength_factor(const Sample& s, std::size_t link) { return s.link_strength.empty() ? 1 : s.link_strength[link]; }
+double strength_factor(const Sample& s, std::size_t link) {
+  return s.link_strength.empty() ? 1 : s.link_strength[link];
+}
 
 /// Toughnesses of all links; 0 where they are brittle.
 void add_toughness(LinkParameters& p, const Sample& s, const std::vector<const LinkScene*>& section) {

@@ -19,8 +19,8 @@ double position(const std::string& along, const Box& box, const Vec2& p) {
 
 /// Linear between the pairs, constant beyond.
 double interpolate(const std::vector<Vec2>& pairs, double at) {
-  const auto after = std::upper_bound(pairs.begin(), pairs.end(), at,
-                                      [](double value, const Vec2& pair) { return value < pair.x(); });
+  const auto after =
+      std::upper_bound(pairs.begin(), pairs.end(), at, [](double value, const Vec2& pair) { return value < pair.x(); });
   if (after == pairs.begin()) return pairs.front().y();
   if (after == pairs.end()) return pairs.back().y();
   const Vec2 &a = *(after - 1), &b = *after;
@@ -32,13 +32,15 @@ void refuse_bad_pairs(const std::vector<Vec2>& pairs, const std::string& key) {
   std::vector<std::string> faults;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     if (!pairs[k].allFinite() || !(pairs[k].y() > 0))
-      faults.push_back(fmt::format("sample.gradient.{}: entry {} is [{:g}, {:g}]; the factor must be positive and both "
-                                   "numbers finite",
-                                   key, k, pairs[k].x(), pairs[k].y()));
+      faults.push_back(
+          fmt::format("sample.gradient.{}: entry {} is [{:g}, {:g}]; the factor must be positive and both "
+                      "numbers finite",
+                      key, k, pairs[k].x(), pairs[k].y()));
     if (k > 0 && !(pairs[k].x() > pairs[k - 1].x()))
-      faults.push_back(fmt::format("sample.gradient.{}: entry {} at {:g} m does not lie beyond the one before, at {:g} m; "
-                                   "positions must increase",
-                                   key, k, pairs[k].x(), pairs[k - 1].x()));
+      faults.push_back(
+          fmt::format("sample.gradient.{}: entry {} at {:g} m does not lie beyond the one before, at {:g} m; "
+                      "positions must increase",
+                      key, k, pairs[k].x(), pairs[k - 1].x()));
   }
   if (!faults.empty()) throw SceneError(std::move(faults));
 }

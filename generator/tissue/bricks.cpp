@@ -38,8 +38,7 @@ void refuse_bad_bricks(const SampleScene& s) {
   if (!(s.shift >= 0 && s.shift < 1))
     throw SceneError(fmt::format("sample.shift = {:g}: must be at least 0 and below 1, in widths of a brick", s.shift));
   if (static_cast<double>(s.columns) * s.rows > 2e7)
-    throw SceneError(
-        fmt::format("sample: {} x {} bricks are more than the 2e7 that are possible", s.columns, s.rows));
+    throw SceneError(fmt::format("sample: {} x {} bricks are more than the 2e7 that are possible", s.columns, s.rows));
 }
 
 }  // namespace

@@ -11,18 +11,21 @@ TileMeasures measure_domain_tiles(const std::vector<Vec2>& centres, const std::v
                                   const Loops& loops) {
   std::vector<Disk> disks;
   for (const Vec2& centre : centres) disks.push_back({centre, 0});
-  const Tessellation tiles =
-      tessellate(centres, weights, box_around(loops, disks), {.duplicates = Duplicates::kKeepFirst, .hidden = Hidden::kReport});
+  const Tessellation tiles = tessellate(centres, weights, box_around(loops, disks),
+                                        {.duplicates = Duplicates::kKeepFirst, .hidden = Hidden::kReport});
   const Overlay pieces = overlay(tiles, loops);
   TileMeasures measures{std::vector<double>(centres.size(), 0), std::vector<Vec2>(centres.size(), Vec2::Zero()), {}};
   for (const Piece& piece : pieces.pieces) {
     const Index site = tiles.tiles[piece.tile].site;
     measures.area[site] += piece.area;
-    if (piece.area != 0) measures.centroid[site] += piece.area * (polygon_centre(polygon_of(pieces, piece)) - centres[site]);
+    if (piece.area != 0)
+      measures.centroid[site] += piece.area * (polygon_centre(polygon_of(pieces, piece)) - centres[site]);
   }
   for (std::size_t i = 0; i < centres.size(); ++i) {
-    if (measures.area[i] > 0) measures.centroid[i] /= measures.area[i];
-    else measures.area[i] = 0, measures.centroid[i].setZero();
+    if (measures.area[i] > 0)
+      measures.centroid[i] /= measures.area[i];
+    else
+      measures.area[i] = 0, measures.centroid[i].setZero();
     measures.centroid[i] += centres[i];
   }
   std::map<std::pair<Index, Index>, double> length;

@@ -22,8 +22,7 @@ double length_of(const Overlay& o, Index e) {
 /// Shares pieces out to cells: one cell for each tile.
 class Sharing {
  public:
-  Sharing(const Overlay& overlay, std::size_t tiles)
-      : o_(overlay), cell_(overlay.pieces.size(), -1), pieces_(tiles) {}
+  Sharing(const Overlay& overlay, std::size_t tiles) : o_(overlay), cell_(overlay.pieces.size(), -1), pieces_(tiles) {}
 
   /// The largest piece of each tile is its cell.
   void keep_largest(double sliver) {
@@ -46,8 +45,7 @@ class Sharing {
     std::vector<Index> left;
     for (std::size_t p = 0; p < o_.pieces.size(); ++p)
       if (cell_[p] < 0) left.push_back(static_cast<Index>(p));
-    std::stable_sort(left.begin(), left.end(),
-                     [&](Index p, Index q) { return o_.pieces[p].area > o_.pieces[q].area; });
+    std::stable_sort(left.begin(), left.end(), [&](Index p, Index q) { return o_.pieces[p].area > o_.pieces[q].area; });
     for (bool any = true; any && !left.empty();) {
       any = false;
       std::vector<Index> rest;
@@ -140,10 +138,11 @@ void refuse_lone_holes(const Overlay& o, const Tessellation& t) {
   std::vector<std::string> faults;
   for (const Piece& piece : o.pieces)
     if (piece.lone_loop > 0)
-      faults.push_back(fmt::format(
-          "sample.domain.holes: hole {} lies within the cell of site {}, which cannot have a hole: make it larger, move "
-          "it, leave it out, or ask for more cells",
-          piece.lone_loop - 1, t.tiles[piece.tile].site));
+      faults.push_back(
+          fmt::format("sample.domain.holes: hole {} lies within the cell of site {}, which cannot have a hole: make it "
+                      "larger, move "
+                      "it, leave it out, or ask for more cells",
+                      piece.lone_loop - 1, t.tiles[piece.tile].site));
   if (!faults.empty()) throw SceneError(faults);
 }
 
@@ -230,9 +229,10 @@ DomainTissue clip_tiles(const Tessellation& tessellation, const Loops& loops, co
         piece.area, tessellation.tiles[piece.tile].site, place_of(o.points[o.edges[piece.first].from])));
   }
   if (!given.empty())
-    notes.push_back(fmt::format("the boundary cuts {} pieces off their cells; they went to the neighbour with the "
-                                "longest common wall: {}",
-                                given.size(), listed(given)));
+    notes.push_back(
+        fmt::format("the boundary cuts {} pieces off their cells; they went to the neighbour with the "
+                    "longest common wall: {}",
+                    given.size(), listed(given)));
   DomainTissue tissue = tissue_of(o, tessellation, sharing);
   tissue.outer_edges = static_cast<Index>(loops.front().size());
   Box& box = tissue.mosaic.box;

@@ -13,7 +13,8 @@ namespace lamella {
 /// A mosaic and where it meets the boundary of its domain.
 struct DomainTissue {
   Mosaic mosaic;
-  std::vector<std::vector<Index>> boundary;  // per cell and edge: edge of the domain, counted through all loops; -1: a wall
+  std::vector<std::vector<Index>>
+      boundary;                // per cell and edge: edge of the domain, counted through all loops; -1: a wall
   std::vector<Index> site;     // per cell
   std::vector<Index> lies_on;  // per vertex: edge of the domain; -1 inside, -2 a corner of it, which stays where it is
   Index outer_edges = 0;       // the edges of the domain below this are those of its outer loop

@@ -23,15 +23,15 @@ struct OverlayEdge {
 /// A part of a tile inside the domain. A loop that lies in one tile alone is a piece of its own, which for a hole has
 /// negative area and runs clockwise: sums over the pieces of a tile are right.
 struct Piece {
-  Index tile = 0;       // into Tessellation::tiles
-  Index first = -1;     // one of its edges
-  Index lone_loop = -1; // the loop that it is, if it is one
-  double area = 0;      // [m2]
+  Index tile = 0;        // into Tessellation::tiles
+  Index first = -1;      // one of its edges
+  Index lone_loop = -1;  // the loop that it is, if it is one
+  double area = 0;       // [m2]
 };
 
 struct Overlay {
-  std::vector<Vec2> points;     // [m]
-  std::vector<Index> lies_on;   // per point: edge of the domain, counted through all loops; -1 inside, -2 a corner
+  std::vector<Vec2> points;    // [m]
+  std::vector<Index> lies_on;  // per point: edge of the domain, counted through all loops; -1 inside, -2 a corner
   std::vector<OverlayEdge> edges;
   std::vector<Piece> pieces;
   bool moved = false;  // see `overlay`

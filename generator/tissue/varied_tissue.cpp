@@ -51,6 +51,7 @@ void draw_out(DomainTissue& tissue, const Eigen::Matrix2d& map, const Box& box) 
 
 Mosaic make_domain_mosaic(const Scene& scene, Notes& notes, const TissueProgress& progress, Origin& origin) {
   const SampleScene& asked = scene.sample;
+  if (asked.periodic != "none") throw SceneError("sample.periodic: not with a domain or a stretch, whose cells end");
   const Domain domain = asked_domain(asked);
   const Eigen::Matrix2d map = asked.stretch ? stretch_map(*asked.stretch) : Eigen::Matrix2d::Identity();
   Scene filled = scene;
@@ -79,7 +80,10 @@ Mosaic make_domain_mosaic(const Scene& scene, Notes& notes, const TissueProgress
   } else {
     tiles = tessellate(packing.disks, box_around(squeezed_domain.loops, packing.disks), options);
     report_hidden(tiles, notes);
-    weld_short_edges(tiles, std::max(asked.walls.weld, 1e-9) * mean_edge_length(tiles));
+    const double threshold = std::max(asked.walls.weld, 1e-9) * mean_edge_length(tiles);
+    if (const int welded = weld_short_edges(tiles, threshold); welded > 0)
+      notes.push_back(fmt::format("{} edges of at most {:.3g} m welded to a point, inside the domain or beside it",
+                                  welded, threshold));
   }
   DomainTissue tissue = clip_tiles(tiles, squeezed_domain.loops, options, notes);
   draw_out(tissue, map, domain.box);

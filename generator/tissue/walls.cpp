@@ -31,7 +31,7 @@ using Sides = std::vector<std::vector<InsetSide>>;
 Sides inset_sides(const Mosaic& mosaic, const std::vector<double>& distances, Notes& notes) {
   Sides sides(mosaic.cells.size());
   std::vector<std::string> vanished, split, lost;
-  double thinnest = 1e300;         // of what vanishes, relative to how far its walls move in
+  double thinnest = 1e300;          // of what vanishes, relative to how far its walls move in
   double distance = 0, widest = 0;  // of what vanishes first, and of what falls apart
   for (std::size_t c = 0; c < mosaic.cells.size(); ++c) {
     const auto polygon = polygon_of(mosaic, mosaic.cells[c]);

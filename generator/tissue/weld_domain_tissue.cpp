@@ -52,10 +52,10 @@ class Welder {
     for (const Short& edge : left_) {
       const Vec2& at = t_.mosaic.vertices[edge.a];
       if (edge.boundary >= 0 && t_.lies_on[edge.a] == kCorner && t_.lies_on[edge.b] == kCorner) continue;
-      notes.push_back(
-          fmt::format("the edge at ({:.6g}, {:.6g}), {:.3g} m long, stays: welding it would move a corner of the domain, "
-                      "fold or remove a cell",
-                      at.x(), at.y(), edge.length));
+      notes.push_back(fmt::format(
+          "the edge at ({:.6g}, {:.6g}), {:.3g} m long, stays: welding it would move a corner of the domain, "
+          "fold or remove a cell",
+          at.x(), at.y(), edge.length));
     }
   }
 

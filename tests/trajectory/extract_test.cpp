@@ -11,7 +11,10 @@ namespace {
 
 /// Two bonded squares, in frame k moved by k along x; in the last frame one link is broken.
 TrajectoryReader moved_squares(const std::filesystem::path& path) {
-  const Sample sample = two_bonded_squares();
+  Sample sample = two_bonded_squares();
+  sample.cell_thickness = {1, 2};
+  for (std::size_t l = 0; l < sample.links.size(); ++l)
+    sample.link_strength.push_back(1 + 0.1 * static_cast<double>(l));
   TrajectoryWriter writer(path, sample, {});
   for (int k = 0; k < 3; ++k) {
     Frame frame;
@@ -46,6 +49,10 @@ TEST(Extract, links_that_are_broken_are_left_out) {
   ASSERT_EQ(after.links.size(), before.links.size() - 1);
   EXPECT_EQ(after.links[0].a, before.links[0].a);
   EXPECT_EQ(after.links[1].a, before.links[2].a);
+  EXPECT_EQ(after.cell_thickness, before.cell_thickness);
+  ASSERT_EQ(after.link_strength.size(), after.links.size());
+  EXPECT_EQ(after.link_strength[0], before.link_strength[0]);
+  EXPECT_EQ(after.link_strength[1], before.link_strength[2]);
 }
 
 TEST(Extract, a_frame_that_is_not_there_is_refused) {

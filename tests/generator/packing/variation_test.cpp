@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "generator/packing/stretch.h"
 #include <Eigen/LU>
+#include "generator/packing/stretch.h"
 
 #include "generator/sample/errors.h"
 

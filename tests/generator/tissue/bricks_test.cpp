@@ -106,9 +106,14 @@ TEST(Bricks, carry_the_bits_of_the_sides_of_their_box) {
 }
 
 TEST(Bricks, without_a_size_or_with_too_many_are_refused) {
-  for (const auto& [columns, rows, width, shift] :
-       {std::tuple{0, 3, 1.0, 0.5}, {3, 0, 1.0, 0.5}, {3, 3, 0.0, 0.5}, {3, 3, -1.0, 0.5}, {3, 3, NAN, 0.5},
-        {3, 3, 1.0, 1.0}, {3, 3, 1.0, -0.1}, {10000, 10000, 1.0, 0.5}}) {
+  for (const auto& [columns, rows, width, shift] : {std::tuple{0, 3, 1.0, 0.5},
+                                                    {3, 0, 1.0, 0.5},
+                                                    {3, 3, 0.0, 0.5},
+                                                    {3, 3, -1.0, 0.5},
+                                                    {3, 3, NAN, 0.5},
+                                                    {3, 3, 1.0, 1.0},
+                                                    {3, 3, 1.0, -0.1},
+                                                    {10000, 10000, 1.0, 0.5}}) {
     SampleScene scene = bricks(columns, rows, shift);
     scene.brick.x() = width;
     EXPECT_THROW(make_bricks(scene), SceneError) << columns << " " << rows << " " << width << " " << shift;

@@ -37,8 +37,8 @@ Moments moments_of_cell(const Sites& sites, std::size_t i, const Loops& loops) {
     for (std::size_t j = 0; j < sites.centres.size(); ++j) {
       if (j == i) continue;
       const Vec2 normal = sites.centres[j] - sites.centres[i];
-      const double level = (sites.centres[j].squaredNorm() - sites.weights[j] - sites.centres[i].squaredNorm() +
-                            sites.weights[i]) / 2;
+      const double level =
+          (sites.centres[j].squaredNorm() - sites.weights[j] - sites.centres[i].squaredNorm() + sites.weights[i]) / 2;
       std::vector<Vec2> left;
       for (std::size_t k = 0; k < polygon.size(); ++k) {
         const Vec2 &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];

@@ -255,10 +255,12 @@ TEST(Walls, refuse_cells_whose_own_radius_is_too_large_and_say_what_would_do) {
   mosaic.cells[1].thickness = 6;
   Notes notes;
   try {
-    make_tissue(mosaic, spaced(0.2), [](const std::string&) { return 0.1; }, notes);
+    make_tissue(
+        mosaic, spaced(0.2), [](const std::string&) { return 0.1; }, notes);
     FAIL() << "no error";
   } catch (const SceneError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("square 1,0 vanish when walls move in by radius + gap / 2 = 0.6 m; at most 0.5 m"));
+    EXPECT_THAT(error.what(),
+                HasSubstr("square 1,0 vanish when walls move in by radius + gap / 2 = 0.6 m; at most 0.5 m"));
   }
 }
 

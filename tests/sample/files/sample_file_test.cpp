@@ -58,7 +58,8 @@ TEST_F(SampleFile, factors_on_thickness_and_strength_come_back_and_are_absent_wh
   EXPECT_FALSE(h5::Node::open(path_).group("cells").has("thickness"));
   EXPECT_FALSE(h5::Node::open(path_).group("links").has("strength"));
   sample.cell_thickness = {1.25, 0.1};
-  for (std::size_t l = 0; l < sample.links.size(); ++l) sample.link_strength.push_back(1 + 0.3 * static_cast<double>(l));
+  for (std::size_t l = 0; l < sample.links.size(); ++l)
+    sample.link_strength.push_back(1 + 0.3 * static_cast<double>(l));
   write_sample(path_, sample);
   EXPECT_EQ(read_sample(path_).cell_thickness, sample.cell_thickness);
   EXPECT_EQ(read_sample(path_).link_strength, sample.link_strength);
@@ -72,8 +73,7 @@ TEST_F(SampleFile, factors_that_are_none_are_refused_by_row) {
   EXPECT_THAT(thickness({-1, 1}), HasSubstr("'thickness' of cell 0 is -1; must be positive"));
   EXPECT_THAT(thickness({1, NAN}), HasSubstr("'thickness' of cell 1 is nan; must be a finite number"));
   EXPECT_THAT(thickness({1}), HasSubstr("'thickness' has 1 rows; must have 2, one per cell"));
-  EXPECT_THAT(fault([](Sample& s) { s.link_strength.assign(s.links.size() + 1, 1.0); }),
-              HasSubstr("'strength' has"));
+  EXPECT_THAT(fault([](Sample& s) { s.link_strength.assign(s.links.size() + 1, 1.0); }), HasSubstr("'strength' has"));
   EXPECT_THAT(fault([](Sample& s) { s.link_strength.assign(s.links.size(), 1.0), s.link_strength[1] = 0; }),
               HasSubstr("'strength' of link 1 is 0; must be positive"));
 }

@@ -126,7 +126,8 @@ TEST(tissue_faults, sections_of_a_tissue_do_not_belong_to_other_kinds) {
 
 TEST(tissue_faults, what_is_given_directly_does_not_follow_a_varied_thickness) {
   const std::string graded =
-      "[sample]\nkind = \"tissue\"\nwidth = 10\nheight = 10\nwalls.segments = 3\ngradient.thickness = [[0, 1], [1, 2]]\n";
+      "[sample]\nkind = \"tissue\"\nwidth = 10\nheight = 10\nwalls.segments = 3\ngradient.thickness = [[0, 1], [1, "
+      "2]]\n";
   EXPECT_THAT(faults("[cells]\nthickness = 0.1\naxial_rigidity = 1\nbending_rigidity = 1\ndensity = 1\n" + graded),
               ElementsAre(HasSubstr("s.toml:1: cells.axial_rigidity: does not follow gradient.thickness"),
                           HasSubstr("s.toml:1: cells.bending_rigidity: does not follow gradient.thickness")));
