@@ -198,6 +198,35 @@ TEST(torus, four_tiles_of_a_square_lattice_meet_at_each_vertex) {
   }
 }
 
+/// Cocircular sites, tiles without area, duplicates, hidden sites, sites on the sides: all at once, and exactly.
+TEST(torus, sites_and_weights_on_coarse_grids_agree_with_half_planes) {
+  for (unsigned seed = 0; seed < 200; ++seed) {
+    Numbers numbers(seed);
+    const int grid = 1 << static_cast<int>(numbers.between(1, 5)), count = static_cast<int>(numbers.between(1, 60));
+    const double weights = std::floor(numbers.between(1, 4));
+    std::vector<Disk> disks;
+    for (int i = 0; i < count; ++i) {
+      const double x = std::floor(numbers.between(0, grid + 0.999)), y = std::floor(numbers.between(0, grid + 0.999));
+      disks.push_back({Vec2(x, y) / grid, (1 + std::floor(numbers.between(0, weights))) / grid});
+    }
+    for (const Periodic& periodic : {Periodic{false, false}, kX, kY, kBoth}) {
+      SCOPED_TRACE(testing::Message() << "seed " << seed << ", periodic " << periodic[0] << periodic[1]);
+      const Tessellation t = tessellate(disks, kUnit, {Duplicates::kKeepFirst, Hidden::kReport, periodic});
+      EXPECT_THAT(check_tessellation(t), IsEmpty());
+      std::vector<Disk> kept;
+      for (const Tile& tile : t.tiles) kept.push_back(disks[tile.site]);
+      for (std::size_t k = 0; k < kept.size(); ++k)
+        EXPECT_NEAR(tile_area(t, t.tiles[k]), polygon_area(half_plane_tile(kept, kUnit, periodic, k)), 1e-14);
+      for (const Index hidden : t.hidden) {
+        kept.push_back(disks[hidden]);
+        kept.back().radius -= 1e-7;  // duplicates would share
+        EXPECT_NEAR(polygon_area(half_plane_tile(kept, kUnit, periodic, kept.size() - 1)), 0, 1e-12);
+        kept.pop_back();
+      }
+    }
+  }
+}
+
 TEST(torus, tiles_of_a_hexagonal_lattice_have_six_sides_and_equal_areas) {
   const int columns = 16, rows = 16;
   const Box box{{0, 0}, {1, rows * std::sqrt(0.75) / columns}};
