@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 
@@ -36,9 +37,10 @@ Vec2 box_size(const std::vector<double>& radii, double fraction, const PackingSp
 }
 
 void add_walls(SoftDisks& soft, const Domain& domain) {
-  for (const auto& loop : domain.loops)
-    for (std::size_t k = 0; k < loop.size(); ++k)
-      soft.walls.push_back({loop[k] - domain.box.lo, loop[(k + 1) % loop.size()] - domain.box.lo});
+  for (const auto& loop : domain.loops) {
+    const auto corner = [&](std::size_t k) { return Vec2(loop[k % loop.size()] - domain.box.lo); };
+    for (std::size_t k = 0; k < loop.size(); ++k) soft.walls.push_back({corner(k), corner(k + 1)});
+  }
 }
 
 /// Draws places with a density in proportion to 1 / factor^2, which is constant on each cell of a raster.
@@ -46,7 +48,6 @@ class Places {
  public:
   Places(const Filling& filling, Random& random) : filling_(filling), random_(random) {
     if (!filling.factor) return;
-    sums_.reserve(kRaster * kRaster);
     double sum = 0;
     for (int cell = 0; cell < kRaster * kRaster; ++cell) {
       const double factor = filling.factor_at(in_cell(cell, {0.5, 0.5}));
@@ -56,18 +57,34 @@ class Places {
     }
   }
 
-  Vec2 next() {
-    // Inside the domain by trial; its share of the box is never that small.
-    for (int trial = 0; trial < 1000000; ++trial) {
-      const Vec2 at(random_.unit(), random_.unit());
-      const Vec2 x = sums_.empty() ? Vec2(at.cwiseProduct(filling_.soft.size)) : in_cell(random_cell(), at);
-      if (filling_.contains(x)) return x;
+  /// For a disk of this radius before the factor. In a domain, one where it fits, if chance finds one: in a passage that
+  /// is too narrow for it it would be stuck.
+  Vec2 next(double radius) {
+    if (!filling_.domain) return anywhere();
+    Vec2 best;
+    double most_room = -std::numeric_limits<double>::infinity();
+    for (int trial = 0; trial < 200 && most_room < 0; ++trial) {
+      const Vec2 x = inside();
+      const double room = filling_.domain->distance_to_boundary(filling_.origin() + x) - radius * filling_.factor_at(x);
+      if (room > most_room) most_room = room, best = x;
     }
-    throw SceneError("sample.domain: is too thin to be packed: it covers less than a millionth of its box");
+    return best;
   }
+
+  /// Mean square of the factor over places drawn so.
+  double mean_square() const { return sums_.empty() ? 1 : kRaster * kRaster / sums_.back(); }
 
  private:
   static constexpr int kRaster = 128;
+  Vec2 anywhere() {
+    const Vec2 at(random_.unit(), random_.unit());
+    return sums_.empty() ? Vec2(at.cwiseProduct(filling_.soft.size)) : in_cell(random_cell(), at);
+  }
+  Vec2 inside() {
+    for (int trial = 0; trial < 1000000; ++trial)
+      if (const Vec2 x = anywhere(); filling_.contains(x)) return x;
+    throw SceneError("sample.domain: is too thin to be packed: it covers less than a millionth of its box");
+  }
   Vec2 in_cell(int cell, const Vec2& at) const {
     return (Vec2(cell % kRaster, cell / kRaster) + at).cwiseProduct(filling_.soft.size) / kRaster;
   }
@@ -109,12 +126,15 @@ void shake(Filling& filling, double amplitude, Random& random) {
   }
 }
 
-bool push_apart(SoftDisks& disks, const std::function<void(const Relaxation&)>& report) {
-  for (const double clearance : kClearances)
-    if (relax(disks, {.clearance = clearance, .balance = 1e-3, .steps = 20000}, report).end ==
-        RelaxationEnd::kSeparated)
-      return true;
-  return false;
+Relaxation push_apart(SoftDisks& disks, const std::function<void(const Relaxation&)>& report) {
+  const int steps = static_cast<int>(std::min<std::size_t>(20000, 5000 + 100 * disks.x.size()));
+  Relaxation state;
+  for (const double clearance : kClearances) {
+    state = relax(disks, {.clearance = clearance, .balance = 1e-3, .steps = steps}, report);
+    // Far more overlap than the clearance: jammed without it too.
+    if (state.end == RelaxationEnd::kSeparated || state.overlap > 5 * clearance) break;
+  }
+  return state;
 }
 
 }  // namespace
@@ -138,7 +158,8 @@ Filling random_start(const std::vector<double>& radii, double fraction, const Pa
   // A given box scales the radii; a box of their own leaves them to the last bit.
   if (space.domain || (space.width > 0 && space.height > 0)) scale_radii(soft, std::sqrt(fraction / fraction_of(soft)));
   Places places(filling, random);
-  for (std::size_t i = 0; i < radii.size(); ++i) soft.x.push_back(places.next());
+  const double expected = 1 / std::sqrt(places.mean_square());
+  for (std::size_t i = 0; i < radii.size(); ++i) soft.x.push_back(places.next(expected * soft.radius[i]));
   if (filling.factor) set_radii(filling, fraction);
   const double largest = *std::max_element(soft.radius.begin(), soft.radius.end());
   if (2 * largest >= soft.size.minCoeff())
@@ -151,18 +172,40 @@ Filling random_start(const std::vector<double>& radii, double fraction, const Pa
   return filling;
 }
 
-double size_deviation(const Filling& filling) {
-  if (!filling.factor) return 0;
-  // The common scale is that of the areas, as in set_radii.
-  double asked = 0, deviation = 0;
+std::vector<double> size_deviations(const Filling& filling) {
   const std::size_t n = filling.drawn.size();
-  std::vector<double> radius(n);
+  std::vector<double> asked(n), deviation(n);
+  double squares = 0;
   for (std::size_t i = 0; i < n; ++i)
-    asked += std::pow(radius[i] = filling.drawn[i] * filling.factor_at(filling.soft.x[i]), 2);
-  const double scale = std::sqrt(disk_area(filling.soft.radius) / (std::numbers::pi * asked));
-  for (std::size_t i = 0; i < n; ++i)
-    deviation = std::max(deviation, std::abs(filling.soft.radius[i] / (scale * radius[i]) - 1));
+    squares += std::pow(asked[i] = filling.drawn[i] * filling.factor_at(filling.soft.x[i]), 2);
+  // The common scale is that of the areas, as in set_radii.
+  const double scale = std::sqrt(disk_area(filling.soft.radius) / (std::numbers::pi * squares));
+  for (std::size_t i = 0; i < n; ++i) deviation[i] = std::abs(filling.soft.radius[i] / (scale * asked[i]) - 1);
   return deviation;
+}
+
+void even_out(Filling& filling, Random& random, const PackingProgress& progress) {
+  constexpr int kRounds = 40;
+  SoftDisks& soft = filling.soft;
+  const std::size_t n = soft.x.size();
+  const double fraction = fraction_of(soft);
+  Places places(filling, random);
+  for (int round = 0; round < kRounds; ++round) {
+    relax(soft, {.clearance = kClearances[0], .balance = 1e-3, .steps = 300});
+    const std::vector<double> overlap = overlaps(soft);
+    const double mean = std::accumulate(overlap.begin(), overlap.end(), 0.0) / static_cast<double>(n);
+    std::vector<std::size_t> squeezed;
+    for (std::size_t i = 0; i < n; ++i)
+      if (overlap[i] > std::max(0.02, 4 * mean)) squeezed.push_back(i);
+    if (progress) progress(0, fmt::format("packing: {} disks squeezed", squeezed.size()));
+    if (squeezed.empty()) return;
+    std::sort(squeezed.begin(), squeezed.end(),
+              [&](std::size_t i, std::size_t j) { return std::pair(-overlap[i], i) < std::pair(-overlap[j], j); });
+    // Some at a time: those next to them have room then.
+    squeezed.resize(std::min(squeezed.size(), std::max<std::size_t>(1, n / 100)));
+    for (const std::size_t i : squeezed) soft.x[i] = places.next(soft.radius[i] / filling.factor_at(soft.x[i]));
+    if (filling.factor) set_radii(filling, fraction);
+  }
 }
 
 void follow_factor(Filling& filling, const PackingProgress& progress) {
@@ -170,7 +213,8 @@ void follow_factor(Filling& filling, const PackingProgress& progress) {
   const double fraction = fraction_of(filling.soft);
   for (int round = 0; round < kRounds; ++round) {
     const Relaxation state = relax(filling.soft, {.clearance = kClearances[0], .balance = 1e-3, .steps = 50});
-    const double deviation = size_deviation(filling);
+    const std::vector<double> deviations = size_deviations(filling);
+    const double deviation = *std::max_element(deviations.begin(), deviations.end());
     if (progress) progress(0.3 * round / kRounds, fmt::format("packing: radii off their place's by {:.1e}", deviation));
     if (state.end != RelaxationEnd::kOutOfSteps && deviation < 1e-3) return;
     set_radii(filling, fraction);
@@ -181,8 +225,9 @@ void jam(SoftDisks& disks, double start, const PackingProgress& progress) {
   scale_radii(disks, std::sqrt(start / fraction_of(disks)));
   double fraction = start, jammed_fraction = start, jammed_pressure = 0;
   double slope = 1;  // of the pressure; it is about 0.5 near jamming: the first steps are rather too small
+  const int steps = static_cast<int>(std::min<std::size_t>(50000, 5000 + 100 * disks.x.size()));
   for (int k = 0; k < 60; ++k) {
-    const Relaxation state = relax(disks, {.clearance = 0, .balance = 1e-3, .steps = 50000});
+    const Relaxation state = relax(disks, {.clearance = 0, .balance = 1e-3, .steps = steps});
     if (progress)
       progress(std::min(0.99, k / 20.0),
                fmt::format("jamming: fraction {:.6f}, pressure {:.1e}", fraction, state.pressure));
@@ -193,7 +238,7 @@ void jam(SoftDisks& disks, double start, const PackingProgress& progress) {
       if (jammed_pressure > state.pressure && jammed_fraction > fraction)
         slope = (jammed_pressure - state.pressure) / (jammed_fraction - fraction);
       jammed_fraction = fraction, jammed_pressure = state.pressure;
-      next = fraction - 0.8 * state.pressure / slope;
+      next = std::max(fraction - 0.8 * state.pressure / slope, fraction / 2);
     } else if (jammed_fraction - fraction < 1e-6) {
       break;
     }
@@ -201,7 +246,8 @@ void jam(SoftDisks& disks, double start, const PackingProgress& progress) {
     fraction = next;
   }
   // What overlap is left, about a millionth, is taken off the radii.
-  scale_radii(disks, 1 - 1.01 * relative_overlap(disks) - 1e-12);
+  for (double overlap; (overlap = relative_overlap(disks)) > 0;)
+    scale_radii(disks, std::max(1 - 1.01 * overlap - 1e-12, 0.5));
 }
 
 void separate(Filling& filling, Random& random, const PackingProgress& progress) {
@@ -217,17 +263,21 @@ void separate(Filling& filling, Random& random, const PackingProgress& progress)
   };
   // Few disks jam at fractions that scatter widely, and cost little.
   const int trials = std::clamp(static_cast<int>(4000 / disks.x.size()), 2, 20);
+  const double scatter = 0.5 / std::sqrt(static_cast<double>(disks.x.size()));
+  for (int trial = 0; trial < trials; ++trial) {
+    const Relaxation state = push_apart(disks, report);
+    if (state.end == RelaxationEnd::kSeparated) return;
+    // The pressure is about half the distance from the fraction at which they jam.
+    if (trial >= 2 && 2 * state.pressure > scatter) break;
+    shake(filling, trial % 2 == 0 ? 0.2 : 0.5, random);
+  }
   double densest = 0;
-  for (int trial = 0; trial < 2 * trials; ++trial) {
-    if (trial < trials) {
-      if (push_apart(disks, report)) return;
-    } else {
-      jam(disks, std::max(1.05 * fraction, 0.9), progress);
-      const double jammed = fraction_of(disks);
-      densest = std::max(densest, jammed);
-      disks.radius = radius;
-      if (jammed > fraction) return;
-    }
+  for (int trial = 0; trial < trials && (trial < 3 || densest > fraction - scatter); ++trial) {
+    jam(disks, std::max(1.05 * fraction, 0.9), progress);
+    const double jammed = fraction_of(disks);
+    densest = std::max(densest, jammed);
+    disks.radius = radius;
+    if (jammed > fraction) return;
     shake(filling, trial % 2 == 0 ? 0.2 : 0.5, random);
   }
   throw SceneError(

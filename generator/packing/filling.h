@@ -27,6 +27,9 @@ double fraction_of(const SoftDisks& disks);
 Filling random_start(const std::vector<double>& radii, double fraction, const PackingSpace& space, Periodic periodic,
                      Random& random);
 
+/// Moves disks out of parts of a domain where chance has put too many: through a narrow passage they would not find.
+void even_out(Filling& filling, Random& random, const PackingProgress& progress);
+
 /// Pushes the disks apart while their radii follow their places; afterwards the radii fit to a fraction of a percent unless
 /// the factor jumps, and the disks overlap a little yet.
 void follow_factor(Filling& filling, const PackingProgress& progress);
@@ -38,7 +41,7 @@ void separate(Filling& filling, Random& random, const PackingProgress& progress)
 /// Compresses to the fraction `start`, beyond jamming, then shrinks the disks to where the pressure vanishes.
 void jam(SoftDisks& disks, double start, const PackingProgress& progress);
 
-/// Largest relative difference of a radius from what its place asks for, up to a common scale [1].
-double size_deviation(const Filling& filling);
+/// Of each disk: relative difference of its radius from what its place asks for, up to the common scale [1].
+std::vector<double> size_deviations(const Filling& filling);
 
 }  // namespace lamella

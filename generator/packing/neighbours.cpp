@@ -18,14 +18,14 @@ class Ghosts {
   Ghosts(Neighbours& list, const Vec2& size, Eigen::Index disks) : list_(list), size_(size), disks_(disks) {}
 
   std::int32_t of(std::int32_t disk, int image_x, int image_y) {
-    // A box holds more than the largest diameter, so images beyond +-3 are never asked for.
-    const std::int64_t key = (static_cast<std::int64_t>(disk) * 8 + image_x + 4) * 8 + image_y + 4;
+    const std::int64_t key = (disk * kImages + image_x + kImages / 2) * kImages + image_y + kImages / 2;
     const auto [at, is_new] = number_.insert({key, static_cast<std::int32_t>(disks_ + list_.ghosts.size())});
     if (is_new) list_.ghosts.push_back({disk, {image_x * size_.x(), image_y * size_.y()}});
     return at->second;
   }
 
  private:
+  static constexpr std::int64_t kImages = 1024;  // a box holds at least a good part of the largest disk
   Neighbours& list_;
   Vec2 size_;
   Eigen::Index disks_;

@@ -40,13 +40,18 @@ double largest_overlap(const Packing& packing) {
       }
     }
   }
-  // Swept along x; of two disks the one further left looks to the right until no disk can reach it.
+  // Along x, each disk looks both ways for those that are not larger, until none of them can reach it.
   std::sort(disks.begin(), disks.end(), [](const Disk& a, const Disk& b) { return a.centre.x() < b.centre.x(); });
+  const auto look = [&](const Disk& disk, const Disk& other) {
+    const Vec2 d = other.centre - disk.centre;
+    if (std::abs(d.x()) > 2 * disk.radius - largest) return false;
+    if (other.radius <= disk.radius) largest = std::max(largest, disk.radius + other.radius - d.norm());
+    return true;
+  };
   for (std::size_t i = 0; i < disks.size(); ++i) {
-    for (std::size_t j = i + 1; j < disks.size(); ++j) {
-      const Vec2 d = disks[j].centre - disks[i].centre;
-      if (d.x() > disks[i].radius + reach - largest) break;
-      largest = std::max(largest, disks[i].radius + disks[j].radius - d.norm());
+    for (std::size_t j = i + 1; j < disks.size() && look(disks[i], disks[j]); ++j) {
+    }
+    for (std::size_t j = i; j > 0 && look(disks[i], disks[j - 1]); --j) {
     }
   }
   return largest;

@@ -80,6 +80,7 @@ Packing pack(const PackingScene& scene, const std::vector<double>& radii, const 
   Random random(seed);
   Filling filling = random_start(radii, scene.jammed ? 0.8 : scene.fraction, space, periodic_of(scene), random);
   SoftDisks& soft = filling.soft;
+  if (space.domain || space.factor) even_out(filling, random, progress);
   if (space.factor) follow_factor(filling, progress);
   double scale = 1;
   if (scene.jammed) {
@@ -94,9 +95,14 @@ Packing pack(const PackingScene& scene, const std::vector<double>& radii, const 
   certify(packing, space.domain);
   packing.notes.push_back(fmt::format("{} disks packed at fraction {:.5f}{}, no overlap", packing.disks.size(),
                                       packing.fraction, scene.jammed ? ", jammed" : ""));
-  packing.size_deviation = size_deviation(filling);
-  if (space.factor)
-    packing.notes.push_back(fmt::format("radii fit the factor at their place to {:.2g}", packing.size_deviation));
+  if (space.factor) {
+    const std::vector<double> deviation = size_deviations(filling);
+    packing.size_deviation = *std::max_element(deviation.begin(), deviation.end());
+    const auto off = std::count_if(deviation.begin(), deviation.end(), [](double d) { return d > 0.01; });
+    packing.notes.push_back(
+        fmt::format("radii fit the factor at their place to {:.1e}; {} of them are off by more than 1 %",
+                    packing.size_deviation, off));
+  }
   return packing;
 }
 

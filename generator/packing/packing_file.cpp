@@ -59,16 +59,23 @@ class Faults {
   int count_ = 0;
 };
 
-std::optional<Disk> parse_disk(const std::string& line, int line_number, Faults& faults) {
+/// A line of the file.
+struct Row {
+  Disk disk;
+  std::optional<double> target_area;
+};
+
+std::optional<Row> parse_row(const std::string& line, int line_number, Faults& faults) {
   const auto words = split(line);
-  if (words.size() != 3) {
-    faults.add(line_number, fmt::format("{} columns: must be three, x, y and r", words.size()));
+  if (words.size() != 3 && words.size() != 4) {
+    faults.add(line_number,
+               fmt::format("{} columns: must be three, x, y and r, or four, with target_area", words.size()));
     return {};
   }
-  std::array<double, 3> values{};
-  for (int k = 0; k < 3; ++k) {
+  std::array<double, 4> values{};
+  for (std::size_t k = 0; k < words.size(); ++k) {
     const auto value = number(words[k]);
-    const char* name = k == 0 ? "x" : k == 1 ? "y" : "r";
+    const char* name = std::array{"x", "y", "r", "target_area"}[k];
     // Beyond this, squared distances lose the radii or overflow.
     constexpr double kHuge = 1e100;
     if (!value)
@@ -77,13 +84,17 @@ std::optional<Disk> parse_disk(const std::string& line, int line_number, Faults&
       faults.add(line_number, fmt::format("{} = {}: must be finite, at most 1e100", name, words[k]));
     else if (k == 2 && !(*value > 0))
       faults.add(line_number, fmt::format("r = {}: a radius must be positive", words[k]));
+    else if (k == 3 && !(*value > 0))
+      faults.add(line_number, fmt::format("target_area = {}: an area must be positive", words[k]));
     else {
       values[k] = *value;
       continue;
     }
     return {};
   }
-  return Disk{{values[0], values[1]}, values[2]};
+  Row row{.disk = {{values[0], values[1]}, values[2]}, .target_area = {}};
+  if (words.size() == 4) row.target_area = values[3];
+  return row;
 }
 
 /// The first line may name its columns. Two numbers out of three are a broken line, not a header.
@@ -103,6 +114,8 @@ Packing read_packing(const std::filesystem::path& path, const Box* box, const st
   std::map<std::array<double, 3>, int> line_of;
   bool first = true;
   int left_out = 0;
+  int columns_set_by = 0;  // line of the first disk
+  bool with_area = false;
   std::string line;
   for (int line_number = 1; std::getline(in, line); ++line_number) {
     line = line.substr(0, line.find('#'));
@@ -110,8 +123,13 @@ Packing read_packing(const std::filesystem::path& path, const Box* box, const st
     const bool header = first && is_header(line);
     first = false;
     if (header) continue;
-    const auto disk = parse_disk(line, line_number, faults);
-    if (!disk) continue;
+    const auto row = parse_row(line, line_number, faults);
+    if (!row) continue;
+    const Disk* disk = &row->disk;
+    if (columns_set_by == 0) columns_set_by = line_number, with_area = row->target_area.has_value();
+    if (row->target_area.has_value() != with_area)
+      faults.add(line_number, fmt::format("{} target_area, line {} has {}: give it for all disks, or for none",
+                                          with_area ? "no" : "a", columns_set_by, with_area ? "one" : "none"));
     const auto [same, is_new] = line_of.insert({{disk->centre.x(), disk->centre.y(), disk->radius}, line_number});
     if (!is_new && duplicates == "keep_first") {
       ++left_out;
@@ -127,6 +145,7 @@ Packing read_packing(const std::filesystem::path& path, const Box* box, const st
                  fmt::format("the centre ({:.9g}, {:.9g}) lies outside the box [{:.9g}, {:.9g}] x [{:.9g}, {:.9g}]",
                              disk->centre.x(), disk->centre.y(), box->lo.x(), box->hi.x(), box->lo.y(), box->hi.y()));
     packing.disks.push_back(*disk);
+    if (row->target_area) packing.target_area.push_back(*row->target_area);
   }
   if (packing.disks.empty() && faults.none()) faults.add("holds no disk: must have at least one line x,y,r");
   faults.throw_if_any();
@@ -149,9 +168,14 @@ Packing read_packing(const std::filesystem::path& path, const Box* box, const st
 
 void write_packing(const std::filesystem::path& path, const Packing& packing) {
   std::ofstream out(path);
-  out << "x,y,r\n";
-  for (const Disk& disk : packing.disks)
-    out << fmt::format("{:.17g},{:.17g},{:.17g}\n", disk.centre.x(), disk.centre.y(), disk.radius);
+  const bool with_area = !packing.target_area.empty();
+  out << (with_area ? "x,y,r,target_area\n" : "x,y,r\n");
+  for (std::size_t k = 0; k < packing.disks.size(); ++k) {
+    const Disk& disk = packing.disks[k];
+    out << fmt::format("{:.17g},{:.17g},{:.17g}", disk.centre.x(), disk.centre.y(), disk.radius);
+    if (with_area) out << fmt::format(",{:.17g}", packing.target_area[k]);
+    out << '\n';
+  }
   out.flush();
   if (!out) throw DataError(fmt::format("{}: cannot be written", path.string()));
 }

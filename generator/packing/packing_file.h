@@ -1,4 +1,4 @@
-// Packings from elsewhere: text, `x,y,r` a line.
+// Packings from elsewhere: text, `x,y,r` or `x,y,r,target_area` a line.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace lamella {
 
-/// Reads `x,y,r` a line [m], separated by commas, semicolons, blanks or tabs; `#` starts a comment; the first line may be a
+/// Reads `x,y,r` a line [m], or `x,y,r,target_area` on all of them [m, m2], separated by commas, semicolons, blanks or tabs; `#` starts a comment; the first line may be a
 /// header. `box`: where all centres must lie; null: the box that encloses the disks. Two disks of one centre and radius are
 /// a fault, or with duplicates "keep_first" the later ones are left out and noted.
 /// Throws SceneError with every fault as `file:line: ...`; DataError when the file cannot be read.

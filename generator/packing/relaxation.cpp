@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <utility>
+
+#include "generator/packing/domain.h"
 
 namespace lamella {
 namespace {
@@ -18,9 +19,9 @@ using Block = Eigen::Array<double, Eigen::Dynamic, 1, 0, kBlock, 1>;
 
 constexpr double kLargestStep = 0.45;  // of time; stable up to 2 / sqrt(2 x 6 contacts) = 0.57
 constexpr double kLongestMove =
-    0.2;                       // in mean radii: disks that start on top of each other are not shot across the box
-constexpr double kSkin = 0.8;  // in mean radii
-constexpr double kTiny = std::numeric_limits<double>::min();
+    0.2;                          // in mean radii: disks that start on top of each other are not shot across the box
+constexpr double kSkin = 0.8;     // in mean radii
+constexpr double kTiny = 1e-150;  // added to lengths that are divided by
 
 bool crosses(const Wall& wall, const Vec2& from, const Vec2& to) {
   const Vec2 d = wall.b - wall.a;
@@ -71,6 +72,25 @@ class Fire {
     wrap_into_box();
     for (Index i = 0; i < n_; ++i) disks_.x[id_[i]] = {x_[i], y_[i]};
     return state;
+  }
+
+  std::vector<double> overlaps() const {
+    std::vector<double> largest(n_);
+    const auto add = [&](Index i, double overlap) {
+      const Index own = i < n_ ? i : list_.ghosts[i - n_].owner;
+      double& so_far = largest[id_[own]];
+      so_far = std::max(so_far, overlap / radius_[own]);
+    };
+    for (std::size_t k = 0; k < list_.first.size(); ++k) {
+      const std::int32_t i = list_.first[k], j = list_.second[k];
+      const Vec2 shift = j < n_ ? Vec2(0, 0) : list_.ghosts[j - n_].shift;
+      const Index own = j < n_ ? j : list_.ghosts[j - n_].owner;
+      const double overlap = radius_[i] + radius_[own] - (Vec2(x_[own], y_[own]) + shift - Vec2(x_[i], y_[i])).norm();
+      add(i, overlap), add(j, overlap);
+    }
+    for (const auto& [i, w] : list_.at_wall)
+      add(i, radius_[i] - distance_to_segment({x_[i], y_[i]}, disks_.walls[w].a, disks_.walls[w].b));
+    return largest;
   }
 
  private:
@@ -246,5 +266,7 @@ class Fire {
 Relaxation relax(SoftDisks& disks, const RelaxationGoal& goal, const std::function<void(const Relaxation&)>& progress) {
   return Fire(disks, goal).run(progress);
 }
+
+std::vector<double> overlaps(SoftDisks disks) { return Fire(disks, {}).overlaps(); }
 
 }  // namespace lamella

@@ -38,4 +38,7 @@ struct Relaxation {
 Relaxation relax(SoftDisks& disks, const RelaxationGoal& goal,
                  const std::function<void(const Relaxation&)>& progress = {});
 
+/// Of each disk: its largest overlap over its radius; 0 when it touches nothing.
+std::vector<double> overlaps(SoftDisks disks);
+
 }  // namespace lamella

@@ -97,6 +97,39 @@ void check_hole(const Value& table, const std::string& path, const HoleScene& ho
   for (const char* key : {"centre", "radius"}) require(table, path, key, "a hole is circular, or has points", faults);
 }
 
+namespace {
+
+/// A sample that repeats is made of a packing that does, along the same sides.
+void check_packing_sides(const Value& packing, const SampleScene& sample, Faults& faults) {
+  if (!has(packing, "boundary")) return;
+  const std::string& boundary = sample.packing.boundary;
+  const std::string asked = sample.periodic == "xy" ? "periodic" : "periodic_" + sample.periodic;
+  if (sample.periodic != "none" && boundary != asked)
+    add_at(packing, "sample.packing", "boundary",
+           fmt::format("\"{}\" contradicts sample.periodic = \"{}\"; remove it, or give \"{}\"", boundary,
+                       sample.periodic, asked),
+           faults);
+  if (sample.domain && boundary != "walls")
+    add_at(packing, "sample.packing", "boundary", "contradicts sample.domain, which has walls; remove it", faults);
+}
+
+/// What belongs to one distribution only.
+void check_sizes(const Value& table, const SizesScene& sizes, Faults& faults) {
+  const std::string path = "sample.sizes";
+  const std::string& kind = sizes.distribution;
+  for (const char* of : {"table", "mixture"}) {
+    if (kind == of)
+      require(table, path, of, fmt::format("distribution = \"{}\" is made of it", of), faults);
+    else if (has(table, of))
+      add_at(table, path, of, fmt::format("contradicts distribution; use distribution = \"{}\"", of), faults);
+  }
+  if (kind == "table" || kind == "mixture" || kind == "file")
+    for (const char* key : {"mean", "cv"})
+      if (has(table, key)) add_at(table, path, key, fmt::format("follows from the {}; remove it", kind), faults);
+}
+
+}  // namespace
+
 void check_sample_section(const Value& table, const SampleScene& sample, Faults& faults) {
   const std::string path = "sample";
   const std::string& kind = sample.kind;
@@ -135,12 +168,15 @@ void check_sample_section(const Value& table, const SampleScene& sample, Faults&
   const Value& sizes = section_or_empty(table, "sizes");
   if (has(packing, "file") && has(table, "sizes"))
     add_at(table, path, "sizes", "contradicts packing.file, which gives the radii; keep one of them", faults);
+  check_packing_sides(packing, sample, faults);
+  if (has(table, "sizes") && !has(packing, "file")) check_sizes(sizes, sample.sizes, faults);
   if ((kind == "tissue" || kind == "rings") && !has(packing, "file")) {
     const bool from_file = sample.sizes.distribution == "file";
+    const bool with_radii = from_file || sample.sizes.distribution == "table" || sample.sizes.distribution == "mixture";
     if (from_file) require(sizes, "sample.sizes", "file", "the radii, one a line", faults);
     if (!from_file && has(sizes, "file"))
       add_at(sizes, "sample.sizes", "file", "contradicts distribution; use distribution = \"file\"", faults);
-    if (!from_file && !has(sizes, "mean") && !has(table, "width"))
+    if (!with_radii && !has(sizes, "mean") && !has(table, "width") && !has(table, "domain"))
       faults.add(has(table, "sizes") ? sizes : table, "sample.sizes.mean",
                  "missing; give the mean radius, or width and height of the box");
   }

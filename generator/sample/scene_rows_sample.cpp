@@ -146,7 +146,7 @@ const std::vector<Row<PackingScene>>& rows() {
       {.key = "jammed", .member = &S::jammed, .sentence = "Compress until jammed, whatever the fraction."},
       {.key = "file",
        .member = &S::file,
-       .sentence = "CSV `x,y,r` of a packing from elsewhere.",
+       .sentence = "CSV `x,y,r` or `x,y,r,target_area` of a packing from elsewhere.",
        .fallback = "a packing is made"},
       {.key = "duplicates",
        .member = &S::duplicates,

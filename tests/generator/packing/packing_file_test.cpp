@@ -59,15 +59,35 @@ TEST(packing_file, a_header_comments_blank_lines_and_other_separators_are_unders
 TEST(packing_file, every_fault_is_named_with_its_line) {
   const Box box{{0, 0}, {10, 10}};
   EXPECT_THAT(
-      faults_of("x,y,r\n1,2,0.5\n1,2\n1,2,3,4\nnan,2,1\n1,inf,1\n1,2,-1\n1,2,0\n1,two,1\n1e300,2,1\n1,2,0.5\n20,2,1\n",
-                &box),
-      ElementsAre(HasSubstr("packing.csv:3: 2 columns"), HasSubstr(":4: 4 columns"), HasSubstr(":5: x = nan"),
+      faults_of(
+          "x,y,r\n1,2,0.5\n1,2\n1,2,3,4,5\nnan,2,1\n1,inf,1\n1,2,-1\n1,2,0\n1,two,1\n1e300,2,1\n1,2,0.5\n20,2,1\n",
+          &box),
+      ElementsAre(HasSubstr("packing.csv:3: 2 columns"), HasSubstr(":4: 5 columns"), HasSubstr(":5: x = nan"),
                   HasSubstr(":6: y = inf"), HasSubstr(":7: r = -1"), HasSubstr(":8: r = 0"),
                   HasSubstr(":9: y = \"two\""), HasSubstr(":10: x = 1e300"),
                   HasSubstr(":11: the same disk as in line 2"), HasSubstr(":12: the centre (20, 2)")));
   EXPECT_THAT(faults_of("1,two,1\n"), ElementsAre(HasSubstr("packing.csv:1: ")));  // a broken line is no header
   EXPECT_THAT(faults_of(""), ElementsAre(HasSubstr("holds no disk")));
   EXPECT_THAT(faults_of("x,y,r\n"), ElementsAre(HasSubstr("holds no disk")));
+}
+
+TEST(packing_file, a_fourth_column_is_the_area_of_each_cell) {
+  const Packing packing = read_packing(file_of("x,y,r,target_area\n1,2,0.5,3\n3,2,0.5,0.25\n"));
+  EXPECT_THAT(packing.target_area, ElementsAre(3, 0.25));
+  const auto path = file_of("");
+  write_packing(path, packing);
+  EXPECT_EQ(read_packing(path).target_area, packing.target_area);
+  EXPECT_THAT(read_packing(file_of("1,2,0.5\n3,2,0.5\n")).target_area, IsEmpty());
+  const Packing fewer = read_packing(file_of("1,2,0.5,3\n1,2,0.5,4\n3,2,0.5,5\n"), nullptr, "keep_first");
+  EXPECT_THAT(fewer.target_area, ElementsAre(3, 5));  // stays beside its disk
+
+  EXPECT_THAT(faults_of("1,2,0.5,3\n3,2,0.5\n"), ElementsAre(HasSubstr("packing.csv:2: no target_area")));
+  EXPECT_THAT(faults_of("1,2,0.5\n3,2,0.5,3\n"),
+              ElementsAre(HasSubstr("packing.csv:2: a target_area, line 1 has none")));
+  EXPECT_THAT(faults_of("1,2,0.5,0\n1,2,0.5,-3\n1,2,0.5,nan\n1,2,0.5,big\n1,2,0.5,\n"),
+              ElementsAre(HasSubstr(":1: target_area = 0"), HasSubstr(":2: target_area = -3"),
+                          HasSubstr(":3: target_area = nan"), HasSubstr(":4: target_area = \"big\""),
+                          HasSubstr(":5: target_area = \"\"")));
 }
 
 TEST(packing_file, a_file_of_another_kind_is_not_listed_line_by_line) {

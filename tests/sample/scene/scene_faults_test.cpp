@@ -109,6 +109,38 @@ TEST(scene_faults, what_is_missing_is_named_with_a_way_out) {
   EXPECT_THAT(faults(plate("[run]\nthreads = 1\n")), ElementsAre(HasSubstr("stop: nothing ends the run")));
 }
 
+TEST(scene_faults, sizes_say_what_their_distribution_needs_and_no_more) {
+  const std::string start = "walls.segments = 3\n";
+  EXPECT_THAT(faults(tissue(start + "sizes.distribution = \"table\"\nsizes.table = [[\"1 um\", 1], [2e-6, 0]]\n")),
+              ElementsAre());
+  EXPECT_THAT(faults(tissue(start + "[[sample.sizes.mixture]]\nmean = 1\nshare = 1\n"
+                                    "[sample.sizes]\ndistribution = \"mixture\"\n")),
+              ElementsAre());
+  EXPECT_THAT(faults(tissue(start + "sizes.distribution = \"table\"\n")),
+              ElementsAre(HasSubstr("sample.sizes.table: missing")));
+  EXPECT_THAT(faults(tissue(start + "sizes.distribution = \"mixture\"\nsizes.mean = 1\n")),
+              ElementsAre(HasSubstr("sample.sizes.mixture: missing"),
+                          HasSubstr("s.toml:7: sample.sizes.mean: follows from the mixture; remove it")));
+  EXPECT_THAT(faults(tissue(start + "sizes.mean = 1\nsizes.table = [[1, 1], [2, 0]]\n")),
+              ElementsAre(HasSubstr("s.toml:7: sample.sizes.table: contradicts distribution; use distribution = "
+                                    "\"table\"")));
+}
+
+TEST(scene_faults, a_packing_has_the_sides_of_its_sample) {
+  const std::string start = "walls.segments = 3\nsizes.mean = 1\n";
+  EXPECT_THAT(faults(tissue(start + "periodic = \"x\"\n")), ElementsAre());
+  EXPECT_THAT(faults(tissue(start + "periodic = \"x\"\npacking.boundary = \"periodic_x\"\n")), ElementsAre());
+  EXPECT_THAT(faults(tissue(start + "periodic = \"xy\"\npacking.boundary = \"periodic\"\n")), ElementsAre());
+  EXPECT_THAT(faults(tissue(start + "packing.boundary = \"periodic\"\n")), ElementsAre());
+  for (const char* other : {"walls", "periodic", "periodic_y"})
+    EXPECT_THAT(
+        faults(tissue(start + "periodic = \"x\"\npacking.boundary = \"" + other + "\"\n")),
+        ElementsAre(AllOf(HasSubstr("s.toml:8: sample.packing.boundary: "),
+                          HasSubstr("contradicts sample.periodic = \"x\"; remove it, or give \"periodic_x\""))));
+  EXPECT_THAT(faults(tissue(start + "domain = { kind = \"disk\", radius = 1 }\npacking.boundary = \"periodic\"\n")),
+              ElementsAre(HasSubstr("sample.packing.boundary: contradicts sample.domain")));
+}
+
 TEST(scene_faults, two_ways_of_saying_one_thing_contradict_each_other) {
   EXPECT_THAT(faults(plate("axial_rigidity = 1\nbending_rigidity = 1\n")),
               ElementsAre("s.toml:12: cells.axial_rigidity: contradicts young; give one of them",
