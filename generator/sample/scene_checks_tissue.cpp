@@ -93,7 +93,8 @@ void check_tissue_sections(const Value& table, const SampleScene& sample, Faults
   if (Section domain(table, "domain", faults); domain) {
     check_domain(domain, *sample.domain);
     if (has("width")) at("width", "contradicts the domain, which has its own size; remove width and height");
-    if (repeats) domain.fault("has a boundary, and a sample or packing that repeats has none; remove one of them");
+    if (sample.periodic != "none")
+      domain.fault("has a boundary, and a sample that repeats has none; remove one of them");
   }
   const bool placed = sample.domain || has("width") || from_file;
   const auto needs_place = [&](Section section) {

@@ -123,8 +123,8 @@ TEST_F(bad_input, values_that_cannot_be_exit_2) {
               ends_with(2, "cells.density: -1 is out of range"));
   EXPECT_THAT(check(replaced(kHoneycomb, "strain = 0.02", "speed = 1")),
               ends_with(2, "loading.speed: contradicts strain_rate"));
-  EXPECT_THAT(check(replaced(kHoneycomb, "kind = \"honeycomb\"", "kind = \"bricks\"")),
-              ends_with(2, "\"bricks\" is not known"));
+  EXPECT_THAT(check(replaced(kHoneycomb, "kind = \"honeycomb\"", "kind = \"blocks\"")),
+              ends_with(2, "\"blocks\" is not known"));
   EXPECT_THAT(run(kHoneycomb, "--set loading.strain=-1"),
               ends_with(2, "--set loading.strain=-1: loading.strain: -1 is out of range"));
   EXPECT_THAT(check(replaced(kHoneycomb, "[sample]", "[sample]\nwidth = 1")), ends_with(2, "sample.height: missing"));

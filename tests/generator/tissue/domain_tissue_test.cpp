@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <set>
 
 #include "generator/generate.h"
@@ -184,6 +185,19 @@ TEST(DomainTissue, welds_edges_that_the_boundary_cuts_short) {
     std::size_t left = 0;
     for (const std::string& note : notes) left += note.find("stays") != std::string::npos;
     EXPECT_LT(left, 8u) << shape;
+  }
+}
+
+TEST(DomainTissue, does_not_depend_on_where_in_memory_it_is_made) {
+  const Loops loops = domain_of("disk");
+  const auto disks = disks_in(loops, 100, 0.02, 9);
+  const Tessellation tiles = tessellate(disks, box_around(loops, disks), reporting());
+  const DomainTissue tissue = clipped(disks, loops);
+  std::vector<std::unique_ptr<char[]>> between;
+  for (std::size_t k = 0; k < 30; ++k) {
+    between.push_back(std::make_unique<char[]>(16 * (1 + k % 5)));
+    EXPECT_EQ(tessellate(disks, box_around(loops, disks), reporting()).vertices, tiles.vertices);
+    EXPECT_EQ(clipped(disks, loops).mosaic.vertices, tissue.mosaic.vertices);
   }
 }
 

@@ -64,7 +64,7 @@ TEST(tissue_faults, a_domain_excludes_a_box_and_what_repeats) {
   EXPECT_THAT(faults(boxed("domain = { kind = \"disk\", radius = 1 }\n")),
               ElementsAre(HasSubstr("s.toml:7: sample.width: contradicts the domain")));
   EXPECT_THAT(faults(open("domain = { kind = \"disk\", radius = 1 }\npacking.boundary = \"periodic\"\n")),
-              ElementsAre(HasSubstr("sample.domain: has a boundary")));
+              ElementsAre(HasSubstr("sample.packing.boundary: contradicts sample.domain")));
   EXPECT_THAT(faults(open("domain = { kind = \"disk\", radius = 1 }\nperiodic = \"x\"\n")),
               Contains(HasSubstr("sample.domain: has a boundary")));
 }
