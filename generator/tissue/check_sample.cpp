@@ -41,6 +41,9 @@ bool check_shapes_of_arrays(const Sample& s, std::vector<std::string>& all) {
   if (s.side.size() != nodes || s.rest_length.size() != nodes || s.rest_angle.size() != nodes ||
       s.hinge_length.size() != nodes)
     bad.add("an array per node does not have {} entries", nodes);
+  if (s.link_image.size() != (is_periodic(s) ? s.links.size() : 0))
+    bad.add("{} links have images, of {}; all have in a periodic sample, none in another", s.link_image.size(),
+            s.links.size());
   if (s.closed.size() != cells || s.group.size() != cells || s.radius.size() != cells || s.rest_area.size() != cells ||
       s.tile_area.size() != cells)
     bad.add("an array per cell does not have {} entries", cells);
@@ -72,6 +75,8 @@ void check_cells(const Sample& s, std::vector<std::string>& all) {
     // A shape beside a tissue has an area of its own; it takes none of the box.
     Vec2 mean = Vec2::Zero();
     for (Index k = begin; k < s.cell_begin[c + 1]; ++k) mean += s.x[k] / s.cell_size(c);
+    for (int axis = 0; axis < 2; ++axis)
+      if (s.periodic[axis]) mean[axis] = s.box.lo[axis];  // some image of it lies in the box
     if (s.box.contains(mean)) tiles += s.tile_area[c];
   }
   if (tiles > s.box.area() * (1 + 1e-9))
@@ -103,7 +108,7 @@ void check_links(const Sample& s, std::vector<std::string>& all) {
   Violations bad;
   const auto cell = cell_of_node(s);
   const auto exists = [&](Index k) { return k >= 0 && k < s.nodes(); };
-  std::set<std::pair<Index, Index>> seen;
+  std::set<std::tuple<Index, Index, Image>> seen;
   Index wall = 0;
   for (std::size_t l = 0; l < s.links.size(); ++l) {
     const Link& link = s.links[l];
@@ -115,13 +120,20 @@ void check_links(const Sample& s, std::vector<std::string>& all) {
     const Wall& of = s.walls[link.wall];
     if (link.wall < wall) bad.add("link {}: links are not sorted by wall", l);
     wall = link.wall;
-    if (cell[link.a] != of.cell_a || cell[link.b] != of.cell_b || of.cell_a >= of.cell_b)
+    const Image image = s.link_image.empty() ? Image{0, 0} : s.link_image[l];
+    const bool ordered = of.cell_a < of.cell_b || (of.cell_a == of.cell_b && image != Image{0, 0});
+    if (cell[link.a] != of.cell_a || cell[link.b] != of.cell_b || !ordered)
       bad.add("link {}: joins cells {} and {}, its wall is between {} and {}", l, cell[link.a], cell[link.b], of.cell_a,
               of.cell_b);
     if (cell[link.a_prev] != cell[link.a] || cell[link.a_next] != cell[link.a] || cell[link.b_prev] != cell[link.b] ||
         cell[link.b_next] != cell[link.b])
       bad.add("link {}: its tangent leaves its cells", l);
-    if (!seen.emplace(link.a, link.b).second)
+    if ((image[0] != 0 && !s.periodic[0]) || (image[1] != 0 && !s.periodic[1]) ||
+        std::max(std::abs(image[0]), std::abs(image[1])) > kFarthestImage)
+      bad.add("link {}: displaced by ({}, {}) boxes", l, image[0], image[1]);
+    if (l > 0 && s.links[l - 1].wall == link.wall && !s.link_image.empty() && s.link_image[l - 1] != image)
+      bad.add("link {}: its image is not that of the link before, on the same wall", l);
+    if (!seen.emplace(link.a, link.b, image).second)
       bad.add("link {}: a second link between nodes {} and {}", l, link.a, link.b);
     if (!(link.length > 0 && std::isfinite(link.length) && link.spacing > 0 && std::isfinite(link.spacing)))
       bad.add("link {}: tributary length {} m, spacing {} m", l, link.length, link.spacing);
@@ -131,7 +143,7 @@ void check_links(const Sample& s, std::vector<std::string>& all) {
       continue;
     }
     const Vec2 t = tau.normalized();
-    const Vec2 across = s.x[link.b] - s.x[link.a];
+    const Vec2 across = s.x[link.b] + link_displacement(s, l) - s.x[link.a];
     if (!(across.dot(right_of(t)) > 0)) bad.add("link {}: its normal does not point from a to b", l);
     const Vec2 off(across.dot(right_of(t)) - link.offset_n, across.dot(t) - link.offset_t);
     if (!(off.norm() <= 1e-9 * (across.norm() + link.spacing)))
@@ -140,23 +152,49 @@ void check_links(const Sample& s, std::vector<std::string>& all) {
   bad.append_to(all);
 }
 
+/// The shell of a cell, displaced, as segments of which each knows its neighbours.
+void add_segments(const Sample& s, Index c, const Vec2& off, std::vector<OwnedSegment>& segments) {
+  const Index begin = s.cell_begin[c], count = s.segments(c);
+  const auto first = static_cast<int>(segments.size());
+  const bool closed = s.closed[c] != 0;
+  for (Index k = 0; k < count; ++k) {
+    const int before = k > 0 ? first + k - 1 : closed ? first + count - 1 : -1;
+    const int after = k + 1 < count ? first + k + 1 : closed ? first : -1;
+    segments.push_back({s.x[begin + k] + off, s.x[s.next(c, begin + k)] + off, c, before, after});
+  }
+}
+
+/// Images of all cells that reach into the rectangle around the cells where they are: a periodic sample's neighbours.
+void add_images(const Sample& s, std::vector<OwnedSegment>& segments) {
+  std::vector<Box> around;
+  Box all{s.x.front(), s.x.front()};
+  for (Index c = 0; c < s.cells(); ++c) {
+    Box own{s.x[s.cell_begin[c]], s.x[s.cell_begin[c]]};
+    for (Index k = s.cell_begin[c]; k < s.cell_begin[c + 1]; ++k)
+      own.lo = own.lo.cwiseMin(s.x[k]), own.hi = own.hi.cwiseMax(s.x[k]);
+    all.lo = all.lo.cwiseMin(own.lo), all.hi = all.hi.cwiseMax(own.hi);
+    around.push_back(own);
+  }
+  const Vec2 period = s.box.size();
+  const auto farthest = [&](int axis) {
+    const double reach = (all.hi[axis] - all.lo[axis]) / period[axis];
+    return s.periodic[axis] ? static_cast<int>(std::min(reach, 1.0 * kFarthestImage)) : 0;
+  };
+  for (int j = -farthest(1); j <= farthest(1); ++j)
+    for (int i = -farthest(0); i <= farthest(0); ++i)
+      for (Index c = 0; c < s.cells() && (i != 0 || j != 0); ++c) {
+        const Vec2 off(i * period.x(), j * period.y());
+        const Vec2 lo = around[c].lo + off, hi = around[c].hi + off;
+        if ((lo.array() < all.hi.array()).all() && (hi.array() > all.lo.array()).all())
+          add_segments(s, c, off, segments);
+      }
+}
+
 void check_crossings(const Sample& s, std::vector<std::string>& all) {
   Violations bad;
   std::vector<OwnedSegment> segments;
-  std::vector<int> segment_of_node(s.x.size(), -1);
-  for (Index c = 0; c < s.cells(); ++c)
-    for (Index k = s.cell_begin[c]; k < s.cell_begin[c + 1]; ++k)
-      if (s.starts_segment(c, k)) {
-        segment_of_node[k] = static_cast<int>(segments.size());
-        segments.push_back({s.x[k], s.x[s.next(c, k)], c, -1, -1});
-      }
-  for (Index c = 0; c < s.cells(); ++c)
-    for (Index k = s.cell_begin[c]; k < s.cell_begin[c + 1]; ++k) {
-      if (segment_of_node[k] < 0) continue;
-      OwnedSegment& segment = segments[segment_of_node[k]];
-      if (s.closed[c] || k > s.cell_begin[c]) segment.before = segment_of_node[s.prev(c, k)];
-      segment.after = segment_of_node[s.next(c, k)];
-    }
+  for (Index c = 0; c < s.cells(); ++c) add_segments(s, c, Vec2(0, 0), segments);
+  if (is_periodic(s) && !s.x.empty()) add_images(s, segments);
   for (const Crossing& crossing : find_crossings(segments)) {
     const OwnedSegment& a = segments[crossing.first];
     const OwnedSegment& b = segments[crossing.second];

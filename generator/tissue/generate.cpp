@@ -13,6 +13,7 @@
 #include "generator/sample/errors.h"
 #include "generator/tissue/lattice.h"
 #include "generator/tissue/notch.h"
+#include "generator/tissue/periodic_bricks.h"
 #include "generator/tissue/polygon_file.h"
 #include "generator/tissue/polygons.h"
 #include "generator/tissue/shapes.h"
@@ -25,9 +26,10 @@ constexpr const char* kGroup = "cells";  // of the cells of a tissue
 
 using Progress = std::function<void(double, const std::string&)>;
 
-Tessellation tessellate(const Packing& packing, const PackingScene& scene, Notes& notes) {
+Tessellation tessellate(const Packing& packing, const PackingScene& scene, const Periodic& periodic, Notes& notes) {
   LaguerreOptions options;
-  if (scene.duplicates == "keep_first") options = {Duplicates::kKeepFirst, Hidden::kReport};
+  if (scene.duplicates == "keep_first") options = {Duplicates::kKeepFirst, Hidden::kReport, periodic};
+  options.periodic = periodic;
   Tessellation tessellation = tessellate(packing.disks, packing.box, options);
   if (!tessellation.hidden.empty()) {
     std::vector<std::string> names;
@@ -50,13 +52,25 @@ Sample make_tissue(Mosaic& mosaic, const Scene& scene, Notes& notes) {
   return make_tissue(mosaic, scene.sample.walls, radius, kGroup, notes);
 }
 
-Sample make_packed_tissue(const Scene& scene, Notes& notes, const Progress& progress) {
+/// Where the sample repeats, so does its packing, whatever the scene says of that.
+Scene with_periodic_packing(const Scene& scene) {
+  Scene out = scene;
+  const Periodic sample = periodic_of(scene.sample);
+  std::string& boundary = out.sample.packing.boundary;
+  const bool x = sample[0] || boundary == "periodic" || boundary == "periodic_x";
+  const bool y = sample[1] || boundary == "periodic" || boundary == "periodic_y";
+  if (sample[0] || sample[1]) boundary = x && y ? "periodic" : x ? "periodic_x" : "periodic_y";
+  return out;
+}
+
+Sample make_packed_tissue(const Scene& asked, Notes& notes, const Progress& progress) {
+  const Scene scene = with_periodic_packing(asked);
   const Packing packing = make_packing(scene, [&](double done, const std::string& what) {
     if (progress) progress(0.7 * done, what);
   });
   notes.insert(notes.end(), packing.notes.begin(), packing.notes.end());
   if (progress) progress(0.7, "tessellation");
-  Tessellation tessellation = tessellate(packing, scene.sample.packing, notes);
+  Tessellation tessellation = tessellate(packing, scene.sample.packing, periodic_of(scene.sample), notes);
   // Cocircular sites leave edges without length, which no wall can be made of: those are welded whatever is asked.
   const double share = std::max(scene.sample.walls.weld, 1e-9);
   weld_short_edges(tessellation, share * mean_edge_length(tessellation), &notes);
@@ -75,7 +89,7 @@ Sample make_packed_rings(const Scene& scene, Notes& notes, const Progress& progr
     for (std::size_t i = 0; i < areas.size(); ++i)
       areas[i] = std::numbers::pi * packing.disks[i].radius * packing.disks[i].radius / packing.fraction;
   } else {
-    const Tessellation tessellation = tessellate(packing, scene.sample.packing, notes);
+    const Tessellation tessellation = tessellate(packing, scene.sample.packing, {false, false}, notes);
     for (const Tile& tile : tessellation.tiles) areas[tile.site] = tile_area(tessellation, tile);
   }
   return make_rings(packing, scene.sample.ring_nodes, scene.stages.front().cell(kGroup).outline_radius(), kGroup,
@@ -126,6 +140,9 @@ Sample generate(const Scene& scene, Notes& notes, const std::function<void(doubl
     sample = make_packed_rings(scene, notes, progress);
   } else if (asked.kind == "honeycomb") {
     Mosaic mosaic = make_honeycomb(asked);
+    sample = make_tissue(mosaic, scene, notes);
+  } else if (asked.kind == "bricks" && asked.periodic != "none") {
+    Mosaic mosaic = make_periodic_bricks(asked);
     sample = make_tissue(mosaic, scene, notes);
   } else if (asked.kind == "polygons") {
     sample = make_imported_tissue(scene, notes);

@@ -161,7 +161,7 @@ Mosaic unequal(double slope) {
   Mosaic mosaic;
   mosaic.vertices = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {2, -slope}, {2, 1 + slope}};
   mosaic.box = {Vec2(0, -slope), Vec2(2, 1 + slope)};
-  mosaic.cells = {{{0, 1, 2, 3}, {0, 0, 0, 0}, "left"}, {{1, 4, 5, 2}, {0, 0, 0, 0}, "right"}};
+  mosaic.cells = {{{0, 1, 2, 3}, {0, 0, 0, 0}, "left", {}}, {{1, 4, 5, 2}, {0, 0, 0, 0}, "right", {}}};
   return mosaic;
 }
 
@@ -227,7 +227,7 @@ TEST(Walls, between_the_same_two_cells_over_a_bend_are_one_wall) {
   Mosaic mosaic;  // a common wall with a kink at (1.1, 0.5)
   mosaic.vertices = {{0, 0}, {1, 0}, {1.1, 0.5}, {1, 1}, {0, 1}, {2, 0}, {2, 1}};
   mosaic.box = {Vec2::Zero(), Vec2(2, 1)};
-  mosaic.cells = {{{0, 1, 2, 3, 4}, {0, 0, 0, 0, 0}, "left"}, {{1, 5, 6, 3, 2}, {0, 0, 0, 0, 0}, "right"}};
+  mosaic.cells = {{{0, 1, 2, 3, 4}, {0, 0, 0, 0, 0}, "left", {}}, {{1, 5, 6, 3, 2}, {0, 0, 0, 0, 0}, "right", {}}};
   const Sample sample = make(mosaic, spaced(0.1), 0.02);
   EXPECT_THAT(check_sample(sample), IsEmpty());
   ASSERT_EQ(sample.walls.size(), 1u);
