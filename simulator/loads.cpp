@@ -23,6 +23,13 @@ Selection on_side(int side) {
 /// The two grips of a [loading] section: the fixed one on the left or bottom, the moving one opposite.
 std::vector<Load> grips(const Sample& sample, const Stage& stage, const LoadingScene& loading) {
   const int axis = loading.axis == "x" ? 0 : 1;
+  if (sample.periodic[axis])
+    throw SceneError(fmt::format(
+        "loading.axis: the sample repeats along {0} (sample.periodic), where it has no sides that grips could hold{1}",
+        loading.axis,
+        sample.periodic[1 - axis] ? ", nor anywhere else; a sample that repeats both ways can be made, but not pulled: "
+                                    "give sample.periodic = \"x\" or \"y\", and pull across it"
+                                  : fmt::format("; pull along {}", axis == 0 ? "y" : "x")));
   const bool shear = loading.kind == "shear";
   const Gauge gauge = [&] {
     Load low, high;

@@ -33,7 +33,7 @@ struct Link {
 
 /// The contact line of two cells: what the tessellation calls an edge.
 struct Wall {
-  Index cell_a = 0, cell_b = 0;  // cell_a < cell_b
+  Index cell_a = 0, cell_b = 0;  // cell_a < cell_b, or a cell and its own image
   double length = 0;             // of the shared edge in the tessellation, or of the linked part [m]
 };
 
@@ -60,9 +60,10 @@ struct Sample {
   std::vector<std::string> group_names;  // "cells" unless the scene names groups
 
   // What a sample may have beside; empty where it has not.
-  Periodic periodic{false, false};    // the box repeats; cells that cross its sides are whole, and lie where they begin
-  std::vector<Image> link_image;      // per link: b is at x[b] + displacement(image, box)
-  std::vector<double> link_strength;  // per link: factor on its strengths [1]
+  Periodic periodic{false, false};  // the box repeats; cells that cross its sides are whole, and lie where they begin
+  std::vector<Image>
+      link_image;  // per link: b is at x[b] + displacement(image, box); one image for all links of a wall
+  std::vector<double> link_strength;   // per link: factor on its strengths [1]
   std::vector<double> cell_thickness;  // per cell: factor on its wall's thickness [1]
 
   std::vector<Wall> walls;
@@ -81,6 +82,16 @@ struct Sample {
   Index next(Index c, Index node) const { return node + 1 < cell_begin[c + 1] ? node + 1 : cell_begin[c]; }
   Index prev(Index c, Index node) const { return node > cell_begin[c] ? node - 1 : cell_begin[c + 1] - 1; }
 };
+
+inline bool is_periodic(const Sample& sample) { return sample.periodic[0] || sample.periodic[1]; }
+
+/// By which b of a link is displaced where it faces a [m].
+inline Vec2 link_displacement(const Sample& sample, std::size_t link) {
+  return sample.link_image.empty() ? Vec2(0, 0) : displacement(sample.link_image[link], sample.box);
+}
+
+/// Images are at most so many box lengths away, in each direction: sums and differences of two still fit.
+inline constexpr int kFarthestImage = 60;
 
 /// Adds a cell of `points` at rest where they are: rest lengths, angles, area and hinge lengths are set from them.
 /// A closed cell is turned counter-clockwise if it is not. Returns the cell's index.

@@ -179,7 +179,8 @@ void read_walls(const h5::Node& group, Index cells, Sample& sample) {
   sample.walls.resize(length.size());
   for (std::size_t w = 0; w < length.size(); ++w) {
     sample.walls[w] = {pairs[2 * w], pairs[2 * w + 1], length[w]};
-    if (pairs[2 * w] >= pairs[2 * w + 1])
+    const bool own_image = pairs[2 * w] == pairs[2 * w + 1] && is_periodic(sample);
+    if (pairs[2 * w] >= pairs[2 * w + 1] && !own_image)
       throw DataError(fmt::format("{}: wall {} joins cell {} to cell {}; the first must be the lower", group.where(), w,
                                   pairs[2 * w], pairs[2 * w + 1]));
   }
@@ -208,6 +209,35 @@ void check_link(const h5::Node& group, const Sample& sample, std::size_t l) {
                     group.where(), l, link.wall, sample.links[l - 1].wall));
 }
 
+/// By how many box lengths b is displaced where a link joins it to a: the same along a wall, and none across sides that do not repeat.
+void read_images(const h5::Node& group, Sample& sample) {
+  const auto values = group.ints("image", 2);
+  if (values.size() != 2 * sample.links.size())
+    throw DataError(fmt::format("{}: 'image' has {} rows; must have {}, one per link", group.where(), values.size() / 2,
+                                sample.links.size()));
+  sample.link_image.resize(sample.links.size());
+  for (std::size_t l = 0; l < sample.links.size(); ++l) {
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      const auto value = values[2 * l + axis];
+      const int most = sample.periodic[axis] ? kFarthestImage : 0;
+      if (value < -most || value > most)
+        throw DataError(fmt::format("{}: 'image' of link {} is {} along {}; must be {}", group.where(), l, value,
+                                    axis == 0 ? "x" : "y",
+                                    most == 0 ? std::string("0, because the sample does not repeat there")
+                                              : fmt::format("from -{} to {}", most, most)));
+      sample.link_image[l][axis] = static_cast<std::int8_t>(value);
+    }
+    const Wall& wall = sample.walls[sample.links[l].wall];
+    if (wall.cell_a == wall.cell_b && sample.link_image[l] == Image{0, 0})
+      throw DataError(
+          fmt::format("{}: link {} joins cell {} to itself; must join it to an image of itself, such as 1 0",
+                      group.where(), l, wall.cell_a));
+    if (l > 0 && sample.links[l - 1].wall == sample.links[l].wall && sample.link_image[l - 1] != sample.link_image[l])
+      throw DataError(fmt::format("{}: 'image' of link {} differs from that of link {}; must be the same along wall {}",
+                                  group.where(), l, l - 1, sample.links[l].wall));
+  }
+}
+
 void read_links(const h5::Node& group, Index nodes, Sample& sample) {
   const auto ends = group.ints("nodes", 2);
   const Rows rows(group, ends.size() / 2, "link");
@@ -231,6 +261,7 @@ void read_links(const h5::Node& group, Index nodes, Sample& sample) {
     link.offset_n = offset[2 * l], link.offset_t = offset[2 * l + 1];
     check_link(group, sample, l);
   }
+  if (is_periodic(sample)) read_images(group, sample);
 }
 
 void read_box(const h5::Node& file, Sample& sample) {
@@ -240,6 +271,12 @@ void read_box(const h5::Node& file, Sample& sample) {
     throw DataError(
         fmt::format("{}: 'box' runs from ({}, {}) to ({}, {}); the second corner must be the upper right one",
                     file.where(), corners[0].x(), corners[0].y(), corners[1].x(), corners[1].y()));
+}
+
+void read_periodic(const h5::Node& file, Sample& sample) {
+  if (!file.has("periodic")) return;
+  const auto flags = Rows(file, 2, "direction").flags("periodic", 1);
+  sample.periodic = {flags[0] != 0, flags[1] != 0};
 }
 
 void check_format(const h5::Node& file) {
@@ -257,6 +294,7 @@ void write_sample(h5::Node& group, const Sample& sample) {
   group.write_text("scene", sample.scene_text);
   group.write_text("seed", std::to_string(sample.seed));
   group.write("box", interleaved({sample.box.lo, sample.box.hi}), 2);
+  if (is_periodic(sample)) group.write("periodic", std::vector<std::uint8_t>{sample.periodic[0], sample.periodic[1]});
 
   auto nodes = group.make_group("nodes");
   nodes.write("x", interleaved(sample.x), 2);
@@ -306,6 +344,11 @@ void write_sample(h5::Node& group, const Sample& sample) {
                   l, [](auto& e) { return e.offset_n; }, [](auto& e) { return e.offset_t; }),
               2);
   if (!sample.link_strength.empty()) links.write("strength", sample.link_strength);
+  if (is_periodic(sample))
+    links.write("image",
+                columns<Index>(
+                    sample.link_image, [](auto& e) { return e[0]; }, [](auto& e) { return e[1]; }),
+                2);
 }
 
 Sample read_sample(const h5::Node& group) {
@@ -319,6 +362,7 @@ Sample read_sample(const h5::Node& group) {
     sample.seed = std::strtoull(seed.c_str(), nullptr, 10);
   }
   read_box(group, sample);
+  read_periodic(group, sample);
   read_nodes(group.group("nodes"), sample);
   read_cells(group.group("cells"), sample.nodes(), sample);
   check_shells(group.group("nodes"), sample);

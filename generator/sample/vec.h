@@ -28,6 +28,14 @@ inline Vec2 displacement(const Image& image, const Box& box) {
   return {image[0] * box.size().x(), image[1] * box.size().y()};
 }
 
+inline Image opposite(const Image& image) {
+  return {static_cast<std::int8_t>(-image[0]), static_cast<std::int8_t>(-image[1])};
+}
+inline Image operator+(const Image& a, const Image& b) {
+  return {static_cast<std::int8_t>(a[0] + b[0]), static_cast<std::int8_t>(a[1] + b[1])};
+}
+inline Image operator-(const Image& a, const Image& b) { return a + opposite(b); }
+
 /// z component of the cross product; positive when b lies to the left of a.
 inline double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 

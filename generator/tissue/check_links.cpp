@@ -49,10 +49,18 @@ void check_place(const Sample& s, std::size_t l, Violations& bad) {
 }
 
 void check_extras(const Sample& s, std::size_t l, Violations& bad) {
-  if (!s.link_image.empty())
-    for (const int axis : {0, 1})
-      if (s.link_image[l][axis] != 0 && !s.periodic[axis])
+  if (!s.link_image.empty()) {
+    const Image image = s.link_image[l];
+    for (const int axis : {0, 1}) {
+      if (image[axis] != 0 && !s.periodic[axis])
         bad.add("link {}: reaches an image along {}, where nothing repeats", l, axis == 0 ? "x" : "y");
+      if (std::abs(image[axis]) > kFarthestImage) bad.add("link {}: displaced by {} boxes", l, image[axis]);
+    }
+    if (l > 0 && s.links[l - 1].wall == s.links[l].wall && s.link_image[l - 1] != image)
+      bad.add("link {}: its image is not that of the link before, on the same wall", l);
+    const Wall& wall = s.walls[s.links[l].wall];
+    if (wall.cell_a == wall.cell_b && image == Image{0, 0}) bad.add("link {}: joins a cell to itself", l);
+  }
   if (!s.link_strength.empty() && !(std::isfinite(s.link_strength[l]) && s.link_strength[l] > 0))
     bad.add("link {}: a factor {} on its strength", l, s.link_strength[l]);
 }
@@ -139,15 +147,27 @@ Segments segments_of(const Sample& s) {
   return segments;
 }
 
-/// Half of the displacements are enough: of two images one is the other's copy.
+/// Displacements that can bring one cell near another; half of them, as of two images one is the other's copy.
+std::vector<Image> displacements(const Sample& s, const Box& around) {
+  const auto farthest = [&](int axis) {
+    const double reach = (around.hi[axis] - around.lo[axis]) / s.box.size()[axis];
+    return s.periodic[axis] ? static_cast<int>(std::min(reach, 1.0 * kFarthestImage)) : 0;
+  };
+  std::vector<Image> images;
+  const int most_x = farthest(0), most_y = farthest(1);
+  for (int j = 0; j <= most_y; ++j)
+    for (int i = j == 0 ? 1 : -most_x; i <= most_x; ++i)
+      images.push_back({static_cast<std::int8_t>(i), static_cast<std::int8_t>(j)});
+  return images;
+}
+
 void add_copies(const Sample& s, Segments& segments) {
   Box around{segments.all[0].from, segments.all[0].from};
   for (const OwnedSegment& segment : segments.all) {
     around.lo = around.lo.cwiseMin(segment.from);
     around.hi = around.hi.cwiseMax(segment.from);
   }
-  for (const Image image : {Image{1, 0}, Image{0, 1}, Image{1, 1}, Image{1, -1}}) {
-    if ((image[0] && !s.periodic[0]) || (image[1] && !s.periodic[1])) continue;
+  for (const Image image : displacements(s, around)) {
     const Vec2 shift = displacement(image, s.box);
     for (Index c = 0, k = 0; c < s.cells(); ++c) {
       const Index end = k + s.segments(c);

@@ -20,11 +20,12 @@ bool check_shapes_of_arrays(const Sample& s, std::vector<std::string>& all) {
   if (s.side.size() != nodes || s.rest_length.size() != nodes || s.rest_angle.size() != nodes ||
       s.hinge_length.size() != nodes)
     bad.add("an array per node does not have {} entries", nodes);
+  if (s.link_image.size() != (is_periodic(s) ? s.links.size() : 0))
+    bad.add("{} links have images, of {}; all have in a periodic sample, none in another", s.link_image.size(),
+            s.links.size());
   if (s.closed.size() != cells || s.group.size() != cells || s.radius.size() != cells || s.rest_area.size() != cells ||
       s.tile_area.size() != cells)
     bad.add("an array per cell does not have {} entries", cells);
-  if (!s.link_image.empty() && s.link_image.size() != s.links.size())
-    bad.add("link_image has {} entries for {} links", s.link_image.size(), s.links.size());
   if (!s.link_strength.empty() && s.link_strength.size() != s.links.size())
     bad.add("link_strength has {} entries for {} links", s.link_strength.size(), s.links.size());
   if (!s.cell_thickness.empty() && s.cell_thickness.size() != cells)
@@ -72,17 +73,6 @@ void check_cells(const Sample& s, double filled, std::vector<std::string>& all) 
   bad.append_to(all);
 }
 
-void check_factors(const Sample& s, std::vector<std::string>& all) {
-  Violations bad;
-  for (std::size_t c = 0; c < s.cell_thickness.size(); ++c)
-    if (!(std::isfinite(s.cell_thickness[c]) && s.cell_thickness[c] > 0))
-      bad.add("cell {}: thickness factor {}", c, s.cell_thickness[c]);
-  for (std::size_t l = 0; l < s.link_strength.size(); ++l)
-    if (!(std::isfinite(s.link_strength[l]) && s.link_strength[l] > 0))
-      bad.add("link {}: strength factor {}", l, s.link_strength[l]);
-  bad.append_to(all);
-}
-
 void check_nodes(const Sample& s, std::vector<std::string>& all) {
   Violations bad;
   for (Index c = 0; c < s.cells(); ++c) {
@@ -109,7 +99,6 @@ std::vector<std::string> check_sample(const Sample& sample, double filled) {
   std::vector<std::string> all;
   if (!check_shapes_of_arrays(sample, all)) return all;
   check_cells(sample, filled, all);
-  check_factors(sample, all);
   check_nodes(sample, all);
   check_walls_and_links(sample, all);
   if (all.empty()) check_crossings(sample, all);

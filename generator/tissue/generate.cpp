@@ -19,6 +19,7 @@
 #include "generator/tissue/lattice.h"
 #include "generator/tissue/missing_links.h"
 #include "generator/tissue/notch.h"
+#include "generator/tissue/periodic_bricks.h"
 #include "generator/tissue/polygon_file.h"
 #include "generator/tissue/polygons.h"
 #include "generator/tissue/shapes.h"
@@ -32,9 +33,10 @@ constexpr const char* kGroup = "cells";  // of the cells of a tissue
 
 using Progress = std::function<void(double, const std::string&)>;
 
-Tessellation tessellate(const Packing& packing, const PackingScene& scene, Notes& notes) {
+Tessellation tessellate(const Packing& packing, const PackingScene& scene, const Periodic& periodic, Notes& notes) {
   LaguerreOptions options;
-  if (scene.duplicates == "keep_first") options = {Duplicates::kKeepFirst, Hidden::kReport};
+  if (scene.duplicates == "keep_first") options = {Duplicates::kKeepFirst, Hidden::kReport, periodic};
+  options.periodic = periodic;
   Tessellation tessellation = tessellate(packing.disks, packing.box, options);
   if (!tessellation.hidden.empty()) {
     std::vector<std::string> names;
@@ -66,15 +68,13 @@ std::vector<Vec2> centres_of(const Tessellation& tessellation, std::size_t sites
 }
 
 CellAreas make_cell_areas(const Packing& packing, const Scene& scene, Notes& notes, const Progress& progress) {
-  const std::string& along = scene.sample.periodic;
-  const Periodic periodic{along == "x" || along == "xy", along == "y" || along == "xy"};
   std::vector<Vec2> places;
   for (const Disk& disk : packing.disks) places.push_back(disk.centre);
   std::vector<double> distance = inset_distances(packing, scene, places);
   // Where walls differ from place to place, a cell's wall follows from the cell: again, until they agree.
   for (int round = 1;; ++round) {
     Notes own;
-    CellAreas areas = tessellate_with_areas(packing, *scene.sample.areas, periodic, distance, own,
+    CellAreas areas = tessellate_with_areas(packing, *scene.sample.areas, periodic_of(scene.sample), distance, own,
                                             [&](double done, const std::string& what) {
                                               if (progress) progress(0.7 + 0.1 * done, what);
                                             });
@@ -108,7 +108,7 @@ Mosaic make_packed_mosaic(const Scene& scene, Notes& notes, const Progress& prog
   if (progress) progress(0.7, "tessellation");
   std::optional<CellAreas> exact;
   if (scene.sample.areas) exact = make_cell_areas(packing, scene, notes, progress);
-  Tessellation tessellation = exact ? exact->tessellation : tessellate(packing, scene.sample.packing, notes);
+  Tessellation tessellation = exact ? exact->tessellation : tessellate(packing, scene.sample.packing, periodic_of(scene.sample), notes);
   // Cocircular sites leave edges without length, which no wall can be made of: those are welded whatever is asked.
   const double share = std::max(scene.sample.walls.weld, 1e-9);
   origin.welded = weld_short_edges(tessellation, share * mean_edge_length(tessellation), &notes);
@@ -141,7 +141,7 @@ Sample make_packed_rings(const Scene& scene, Notes& notes, const Progress& progr
     for (std::size_t i = 0; i < areas.size(); ++i)
       areas[i] = std::numbers::pi * packing.disks[i].radius * packing.disks[i].radius / packing.fraction;
   } else {
-    const Tessellation tessellation = tessellate(packing, scene.sample.packing, notes);
+    const Tessellation tessellation = tessellate(packing, scene.sample.packing, {false, false}, notes);
     for (const Tile& tile : tessellation.tiles) areas[tile.site] = tile_area(tessellation, tile);
   }
   return make_rings(packing, scene.sample.ring_nodes, scene.stages.front().cell(kGroup).outline_radius(), kGroup,
@@ -213,7 +213,7 @@ Sample generate(const Scene& scene, Notes& notes, const std::function<void(doubl
     Mosaic mosaic = make_honeycomb(asked);
     sample = make_tissue(mosaic, scene, notes, from);
   } else if (asked.kind == "bricks") {
-    Mosaic mosaic = make_bricks(asked);
+    Mosaic mosaic = asked.periodic == "none" ? make_bricks(asked) : make_periodic_bricks(asked);
     sample = make_tissue(mosaic, scene, notes, from);
   } else if (asked.kind == "polygons") {
     sample = make_imported_tissue(scene, notes, from);

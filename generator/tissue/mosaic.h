@@ -28,15 +28,30 @@ struct Mosaic {
   std::vector<MosaicCell> cells;
 };
 
-/// Where an edge is: the k-th of a cell. cell == -1: nowhere.
+/// Where an edge is: the k-th of a cell. cell == -1: nowhere. In a periodic mosaic it is the cell displaced by `image` that has the edge,
+/// which may be an image of the very same cell.
 struct EdgePlace {
   Index cell = -1;
   Index edge = -1;
+  Image image{0, 0};
 };
 
 /// For every cell and edge, the same edge seen from the other cell, or cell == -1 for a free edge. Throws
-/// SceneError naming both cells when two cells have the same edge in the same direction: they overlap.
+/// SceneError naming both cells when two cells have the same edge in the same direction: they overlap. Edges of a periodic mosaic are the
+/// same when they join the same vertices through the same images.
 std::vector<std::vector<EdgePlace>> opposite_edges(const Mosaic& mosaic);
+
+/// Of the two cells of a shared edge, the one that comes first: that of lower index, and of a cell beside its own image the edge whose
+/// neighbour is displaced forwards. Of `there`, seen from `cell`.
+inline bool comes_first(Index cell, const EdgePlace& there) {
+  return there.cell > cell || (there.cell == cell && there.image > Image{0, 0});
+}
+
+/// Where the k-th corner of a cell is [m].
+inline Vec2 corner_of(const Mosaic& mosaic, const MosaicCell& cell, std::size_t k) {
+  const Vec2& at = mosaic.vertices[cell.vertex[k]];
+  return cell.image.empty() ? at : at + displacement(cell.image[k], mosaic.box);
+}
 
 std::vector<Vec2> polygon_of(const Mosaic& mosaic, const MosaicCell& cell);
 
@@ -47,11 +62,14 @@ Vec2 polygon_centre(const std::vector<Vec2>& points);
 void order_by_rows(Mosaic& mosaic);
 
 /// Gives free edges the bits of the box sides that they look at from within 0.6 mean cell diameters: the rough sides of
-/// a tissue that does not fill its box.
+/// a tissue that does not fill its box. A side beyond which the mosaic repeats is none.
 void mark_rough_sides(Mosaic& mosaic);
 
-/// Removes the cells whose centre lies inside the polygon; their neighbours' walls there become free. Returns how many.
+/// Removes the cells whose centre, or an image of it, lies inside the polygon; their neighbours' walls there become free. Returns how many.
 Index remove_cells_inside(Mosaic& mosaic, const std::vector<Vec2>& polygon);
+
+/// What brings a point into a periodic box, and to its images around it: 3 or 9 displacements [m]; (0, 0) alone where nothing repeats.
+std::vector<Vec2> ways_home(const Vec2& point, const Box& box, const Periodic& periodic);
 
 /// Whether the point lies inside the closed polygon (either orientation).
 bool is_inside(const std::vector<Vec2>& polygon, const Vec2& point);

@@ -96,12 +96,12 @@ std::vector<Link> links_of_wall(const Bonding& bonding, const FacingWall& wall, 
 
 /// Tangent stencils and stress-free offsets. Inside a wall both neighbours enter, at its ends only the one on the wall.
 /// False when the link has no frame: its nodes coincide or lie the wrong way round.
-bool set_frame(const Sample& sample, Index cell_a, Index cell_b, const Vec2& direction, bool first, bool last,
+bool set_frame(const Sample& sample, Index cell_a, Index cell_b, const FacingWall& wall, bool first, bool last,
                Link& link) {
   link.wall_end = first || last ? 1 : 0;
   if (first && last) {
-    std::tie(link.a_prev, link.a_next) = stencil_along(sample, cell_a, link.a, direction);
-    std::tie(link.b_prev, link.b_next) = stencil_along(sample, cell_b, link.b, -direction);
+    std::tie(link.a_prev, link.a_next) = stencil_along(sample, cell_a, link.a, wall.direction);
+    std::tie(link.b_prev, link.b_next) = stencil_along(sample, cell_b, link.b, -wall.direction);
   } else {
     link.a_prev = first ? link.a : sample.prev(cell_a, link.a);
     link.a_next = last ? link.a : sample.next(cell_a, link.a);
@@ -111,7 +111,7 @@ bool set_frame(const Sample& sample, Index cell_a, Index cell_b, const Vec2& dir
   const Vec2 tau = (sample.x[link.a_next] - sample.x[link.a_prev]) - (sample.x[link.b_next] - sample.x[link.b_prev]);
   if (!(tau.norm() > 0)) return false;
   const Vec2 tangent = tau.normalized();
-  const Vec2 across = sample.x[link.b] - sample.x[link.a];
+  const Vec2 across = sample.x[link.b] + displacement(wall.image, sample.box) - sample.x[link.a];
   link.offset_n = across.dot(right_of(tangent));
   link.offset_t = across.dot(tangent);
   return link.offset_n > 0;
@@ -131,10 +131,9 @@ void add_bonded_cells(const Bonding& bonding, double radius, const std::string& 
   const double merge = kMergeFraction * bonding.spacing;
   const Index first_cell = sample.cell_begin.empty() ? 0 : sample.cells();
   PairNodes nodes{std::vector<Index>(bonding.pairs.size(), -1), std::vector<Index>(bonding.pairs.size(), -1)};
-  // Which of the two cells of a pair comes first is the wall's to say.
-  std::vector<Index> cell_a_of_pair(bonding.pairs.size(), -1);
-  for (const FacingWall& wall : bonding.walls)
-    std::fill_n(cell_a_of_pair.begin() + wall.first, wall.count, wall.cell_a);
+  // Which of the two cells of a pair comes first is the wall's to say, unless both are the same.
+  std::vector<const FacingWall*> wall_of_pair(bonding.pairs.size(), nullptr);
+  for (const FacingWall& wall : bonding.walls) std::fill_n(wall_of_pair.begin() + wall.first, wall.count, &wall);
 
   std::vector<std::string> too_small;
   std::vector<std::string> names;
@@ -154,7 +153,9 @@ void add_bonded_cells(const Bonding& bonding, double radius, const std::string& 
       const Index pair = outline.nodes[k].pair;
       if (pair < 0) continue;
       const Index node = begin + merged.node_of[k];
-      (cell_a_of_pair[pair] == static_cast<Index>(c) ? nodes.a : nodes.b)[pair] = node;
+      const FacingWall& wall = *wall_of_pair[pair];
+      const bool is_a = wall.cell_a == wall.cell_b ? outline.nodes[k].first_side : wall.cell_a == static_cast<Index>(c);
+      (is_a ? nodes.a : nodes.b)[pair] = node;
       if ((sample.x[node] - outline.nodes[k].at).norm() > 1e-9 * bonding.spacing) ++moved;
     }
     names.push_back(outline.name);
@@ -175,8 +176,9 @@ void add_bonded_cells(const Bonding& bonding, double radius, const std::string& 
     auto links = links_of_wall(bonding, wall, nodes);
     for (std::size_t k = 0; k < links.size(); ++k) {
       links[k].wall = index;
-      if (set_frame(sample, cell_a, cell_b, wall.direction, k == 0, k + 1 == links.size(), links[k])) {
+      if (set_frame(sample, cell_a, cell_b, wall, k == 0, k + 1 == links.size(), links[k])) {
         sample.links.push_back(links[k]);
+        if (is_periodic(sample)) sample.link_image.push_back(wall.image);
         ++coupled;
       } else {
         crushed.push_back(bonding.cells[wall.cell_a].name + " - " + bonding.cells[wall.cell_b].name);

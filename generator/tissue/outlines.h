@@ -17,6 +17,8 @@ struct OutlineNode {
   Kind kind = Kind::fill;
   Index pair = -1;        // matched: into Bonding::pairs
   std::uint8_t side = 0;  // Side bits
+  bool first_side =
+      false;  // matched: of the side of a in the pair, which of a cell beside its own image both cells are
 };
 
 /// A closed cell to be, counter-clockwise.
@@ -33,12 +35,13 @@ struct FacingPair {
   bool linked = true;
 };
 
-/// The contact line of two cells, cell_a < cell_b: pairs [first, first + count) in the order of a's outline.
+/// The contact line of two cells, cell_a < cell_b, or of a cell and an image of its own: pairs [first, first + count) in the order of a's outline.
 struct FacingWall {
   Index cell_a = 0, cell_b = 0;
   double length = 0;              // [m]
   Vec2 direction = Vec2::Zero();  // of the line, as a runs along it
   Index first = 0, count = 0;
+  Image image{0, 0};  // by which b is displaced where it borders a
 };
 
 struct Bonding {

@@ -78,23 +78,28 @@ Sides inset_sides(const Mosaic& mosaic, const std::vector<double>& distances, No
   return sides;
 }
 
-/// Facing part of the edge `s` of the cell of lower index and of its other side `o`, in the positions of `s`.
-void overlap(const InsetSide& s, const InsetSide& o, double& low, double& high) {
-  const double length = (o.start - s.start).dot(s.along);  // o runs the other way, from the end of s
+/// Length of the whole edge `s`, whose other side `o` lies where it borders s when it is displaced.
+double edge_length(const InsetSide& s, const InsetSide& o, const Vec2& displaced) {
+  return (o.start + displaced - s.start).dot(s.along);  // o runs the other way, from the end of s
+}
+
+/// Facing part of an edge `s` of this length and of its other side `o`, in the positions of `s`.
+void overlap(const InsetSide& s, const InsetSide& o, double length, double& low, double& high) {
   low = std::max(s.from, length - o.to);
   high = std::min(s.to, length - o.from);
 }
 
-double mean_overlap(const Sides& sides, const std::vector<std::vector<EdgePlace>>& opposite) {
+double mean_overlap(const Sides& sides, const std::vector<std::vector<EdgePlace>>& opposite, const Box& box) {
   double sum = 0;
   Index count = 0;
   for (std::size_t c = 0; c < sides.size(); ++c) {
     for (std::size_t k = 0; k < sides[c].size(); ++k) {
       const EdgePlace there = opposite[c][k];
-      if (there.cell < static_cast<Index>(c) || !sides[c][k].present) continue;
-      if (!sides[there.cell][there.edge].present) continue;
+      if (!comes_first(static_cast<Index>(c), there) || !sides[c][k].present) continue;
+      const InsetSide& across = sides[there.cell][there.edge];
+      if (!across.present) continue;
       double low, high;
-      overlap(sides[c][k], sides[there.cell][there.edge], low, high);
+      overlap(sides[c][k], across, edge_length(sides[c][k], across, displacement(there.image, box)), low, high);
       if (high > low) {
         sum += high - low;
         ++count;
@@ -154,8 +159,8 @@ void choose_links(const std::string& links, Bonding& bonding) {
   }
 }
 
-/// Finds the facing part of every shared edge and gives it pairs. Consecutive edges between the same two cells are
-/// one wall.
+/// Finds the facing part of every shared edge and gives it pairs. Consecutive edges between the same two cells, through the same image,
+/// are one wall.
 void face_sides(const Mosaic& mosaic, const std::vector<std::vector<EdgePlace>>& opposite, Sides& sides,
                 Bonding& bonding, Notes& notes) {
   std::vector<std::string> one_sided, apart, single;
@@ -164,13 +169,14 @@ void face_sides(const Mosaic& mosaic, const std::vector<std::vector<EdgePlace>>&
     const auto cell = static_cast<Index>(c);
     // Begin where the neighbour changes, so that a wall of several edges is not cut in two.
     std::size_t start = 0;
-    while (start < count && opposite[c][start].cell == opposite[c][(start + count - 1) % count].cell) ++start;
-    Index before = -1;
+    const auto neighbour = [&](std::size_t k) { return std::pair(opposite[c][k].cell, opposite[c][k].image); };
+    while (start < count && neighbour(start) == neighbour((start + count - 1) % count)) ++start;
+    std::pair<Index, Image> before{-1, {0, 0}};
     for (std::size_t i = 0; i < count; ++i) {
       const std::size_t k = (start + i) % count;
       const EdgePlace there = opposite[c][k];
-      if (there.cell <= cell) {
-        before = -1;
+      if (!comes_first(cell, there)) {
+        before.first = -1;
         continue;
       }
       InsetSide& here = sides[c][k];
@@ -180,8 +186,9 @@ void face_sides(const Mosaic& mosaic, const std::vector<std::vector<EdgePlace>>&
         if (here.present || across.present) one_sided.push_back(name);
         continue;
       }
+      const double length = edge_length(here, across, displacement(there.image, mosaic.box));
       double low, high;
-      overlap(here, across, low, high);
+      overlap(here, across, length, low, high);
       const auto first = static_cast<Index>(bonding.pairs.size());
       const Index pairs = high > low ? add_pairs(high - low, bonding.spacing, bonding) : 0;
       if (pairs == 0) {
@@ -189,19 +196,18 @@ void face_sides(const Mosaic& mosaic, const std::vector<std::vector<EdgePlace>>&
         continue;
       }
       if (pairs == 1) single.push_back(name);
-      const double length = (across.start - here.start).dot(here.along);
       here.first_pair = across.first_pair = first;
       here.pairs = across.pairs = pairs;
       here.low = low;
       here.high = high;
       across.low = length - high;
       across.high = length - low;
-      if (before == there.cell) {
+      if (before == neighbour(k)) {
         bonding.walls.back().length += length;
         bonding.walls.back().count += pairs;
       } else {
-        bonding.walls.push_back({cell, there.cell, length, here.along, first, pairs});
-        before = there.cell;
+        bonding.walls.push_back({cell, there.cell, length, here.along, first, pairs, there.image});
+        before = neighbour(k);
       }
     }
   }
@@ -219,12 +225,14 @@ void face_sides(const Mosaic& mosaic, const std::vector<std::vector<EdgePlace>>&
 
 class OutlineWriter {
  public:
-  OutlineWriter(const InsetSide& side, double distance, double spacing, std::uint8_t bits, Outline& outline)
+  OutlineWriter(const InsetSide& side, double distance, double spacing, std::uint8_t bits, bool first_side,
+                Outline& outline)
       : side_(side),
         normal_(left_of(side.along)),
         distance_(distance),
         spacing_(spacing),
         bits_(bits),
+        first_side_(first_side),
         outline_(outline) {}
 
   void corner(std::uint8_t bits_before) {
@@ -239,7 +247,7 @@ class OutlineWriter {
                                 OutlineNode::Kind::fill, -1, bits_});
   }
   void matched(double position, Index pair) {
-    outline_.nodes.push_back({at(position), OutlineNode::Kind::matched, pair, bits_});
+    outline_.nodes.push_back({at(position), OutlineNode::Kind::matched, pair, bits_, first_side_});
   }
 
  private:
@@ -249,6 +257,7 @@ class OutlineWriter {
   Vec2 normal_;
   double distance_, spacing_;
   std::uint8_t bits_;
+  bool first_side_;
   Outline& outline_;
 };
 
@@ -264,7 +273,8 @@ Bonding face_walls(const Mosaic& mosaic, const WallsScene& walls, const std::vec
   const auto opposite = opposite_edges(mosaic);
   Sides sides = inset_sides(mosaic, distance, notes);
   Bonding bonding;
-  bonding.spacing = walls.spacing > 0 ? walls.spacing : mean_overlap(sides, opposite) / std::max(1, walls.segments);
+  bonding.spacing =
+      walls.spacing > 0 ? walls.spacing : mean_overlap(sides, opposite, mosaic.box) / std::max(1, walls.segments);
   refuse_too_many(sides, bonding.spacing);
   face_sides(mosaic, opposite, sides, bonding, notes);
   choose_links(walls.links, bonding);
@@ -286,14 +296,14 @@ Bonding face_walls(const Mosaic& mosaic, const WallsScene& walls, const std::vec
     for (std::size_t k = 0; k < count; ++k) {
       const InsetSide& side = sides[c][k];
       if (!side.present) continue;
-      OutlineWriter writer(side, distance[c], bonding.spacing, cell.side[k], outline);
+      const bool first_cell = comes_first(static_cast<Index>(c), opposite[c][k]);
+      OutlineWriter writer(side, distance[c], bonding.spacing, cell.side[k], first_cell, outline);
       writer.corner(bits_before);
       bits_before = cell.side[k];
       if (!side.faces()) {
         writer.fill(side.from, side.to);
         continue;
       }
-      const bool first_cell = opposite[c][k].cell > static_cast<Index>(c);
       writer.fill(side.from, side.low);
       for (Index p = 0; p < side.pairs; ++p) {
         const double share = side.pairs > 1 ? static_cast<double>(p) / (side.pairs - 1) : 0.5;
@@ -312,6 +322,7 @@ Sample make_tissue(const Mosaic& mosaic, const WallsScene& walls, double radius,
                    Notes& notes) {
   Sample sample;
   sample.box = mosaic.box;
+  sample.periodic = mosaic.periodic;
   const Bonding bonding = face_walls(mosaic, walls, radius, notes);
   add_bonded_cells(bonding, radius, group, sample, notes);
   return sample;

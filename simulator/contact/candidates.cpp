@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 #include <utility>
+
+#include "simulator/contact/drift.h"
+#include "simulator/contact/images.h"
 
 namespace lamella {
 namespace {
@@ -144,14 +148,15 @@ LinkedNodes::LinkedNodes(const Sample& sample, const std::vector<Index>& cell_of
   std::vector<Index> at(begin_.begin(), begin_.end() - 1);
   for (Index l = 0; l < static_cast<Index>(sample.links.size()); ++l) {
     const Link& link = sample.links[l];
-    partners_[at[link.a]++] = {l, link.b, cell_of[link.b]};
-    partners_[at[link.b]++] = {l, link.a, cell_of[link.a]};
+    const Image image = sample.link_image.empty() ? Image{0, 0} : sample.link_image[l];  // of b, seen from a
+    partners_[at[link.a]++] = {l, link.b, cell_of[link.b], opposite(image)};
+    partners_[at[link.b]++] = {l, link.a, cell_of[link.a], image};
   }
 }
 
-bool LinkedNodes::ignores(const Sample& sample, Index node, Index cell, Index segment) const {
+bool LinkedNodes::ignores(const Sample& sample, Index node, Index cell, const Image& image, Index segment) const {
   for (const Partner& partner : of(node))
-    if (partner.cell == cell && intact_[partner.link] &&
+    if (partner.cell == cell && partner.image == image && intact_[partner.link] &&
         (segment == partner.node || sample.next(cell, segment) == partner.node))
       return true;
   return false;
@@ -161,21 +166,61 @@ std::size_t LinkedNodes::bytes() const {
   return begin_.size() * sizeof(Index) + partners_.size() * sizeof(Partner) + intact_.size();
 }
 
-bool CandidateRules::candidates(const Field& x, Index node, Index cell, Index segment) const {
+bool CandidateRules::candidates(const Field& x, Index node, Index cell, Index segment, const Image& image) const {
   if (gone(segment)) return false;
   const Index own = cell_of[node];
   const double reach = sample.radius[own] + sample.radius[cell] + skin;
-  const Vec2 p = x.at(node), a = x.at(segment), b = x.at(sample.next(cell, segment));
+  const bool here = image == Image{0, 0};
+  Vec2 p = x.at(node);
+  if (!here) p += displacement(image, sample.box);
+  const Vec2 a = x.at(segment), b = x.at(sample.next(cell, segment));
   // most of the pairs of a square of the grid are farther apart than this, and it needs no division
   if (std::min(a.x(), b.x()) - p.x() >= reach || p.x() - std::max(a.x(), b.x()) >= reach ||
       std::min(a.y(), b.y()) - p.y() >= reach || p.y() - std::max(a.y(), b.y()) >= reach)
     return false;
-  if (own == cell && self_reach.ignores(sample, broken, cell, node, segment)) return false;
+  const bool itself = own == cell && here;
+  if (itself && self_reach.ignores(sample, broken, cell, node, segment)) return false;
   if (!(squared_distance(p, a, b) < reach * reach)) return false;
-  return own == cell || !linked.ignores(sample, node, cell, segment);
+  return itself || !linked.ignores(sample, node, cell, image, segment);
 }
 
+namespace {
+
+/// The search of a periodic sample: segments of cells at home, looked at from every image of a node that comes near them.
+CandidateList find_among_images(const CandidateRules& rules, const Field& x) {
+  const Sample& sample = rules.sample;
+  const Homes homes(sample, bounding_boxes(sample, x));
+  const Field at_home = brought_home(sample, homes, x);
+  const SegmentGrid grid(rules, at_home);
+  const double grow = 2 * *std::max_element(sample.radius.begin(), sample.radius.end()) + rules.skin;
+  CandidateList list;
+  std::vector<std::tuple<Index, Image, Index>> found;  // cell, image, segment
+  for (Index node = 0; node < sample.nodes(); ++node) {
+    const Index own = rules.cell_of[node];
+    if (rules.bare[own]) continue;
+    found.clear();
+    homes.for_each_copy({x.at(node), x.at(node)}, own, grow, [&](const Steps& steps) {
+      for (const auto& [c, s] : grid.near(x.at(node) + homes.displacement(steps))) {
+        const Image image = image_between(steps, homes.home(c));
+        if (rules.candidates(x, node, c, s, image)) found.emplace_back(c, image, s);
+      }
+    });
+    std::sort(found.begin(), found.end());
+    for (const auto& [c, image, s] : found) {
+      const bool more = !list.pairs.empty() && list.pairs.back().node == node && list.pairs.back().cell == c &&
+                        list.pairs.back().image == image;
+      if (!more) list.pairs.push_back({node, c, static_cast<Index>(list.segments.size()), 0, image});
+      list.segments.push_back(s);
+      ++list.pairs.back().count;
+    }
+  }
+  return list;
+}
+
+}  // namespace
+
 CandidateList find_candidates(const CandidateRules& rules, const Field& x) {
+  if (is_periodic(rules.sample) && rules.sample.nodes() > 0) return find_among_images(rules, x);
   CandidateList list;
   if (rules.sample.nodes() == 0) return list;
   const SegmentGrid grid(rules, x);

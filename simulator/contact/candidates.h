@@ -1,6 +1,6 @@
 // Which nodes can touch which shells before anything has moved by half a skin: a Verlet list over a uniform grid of segments.
 //
-// The list is in a canonical order (by node, then cell, then segment) and pairs out of reach add nothing to any sum, so that when
+// The list is in a canonical order (by node, then cell, then image, then segment) and pairs out of reach add nothing to any sum, so that when
 // the list was made cannot change a result.
 #pragma once
 #include <cstdint>
@@ -12,14 +12,15 @@
 
 namespace lamella {
 
-/// A node and the segments of one cell that it may touch.
+/// A node, or in a periodic sample an image of it, and the segments of one cell that it may touch.
 struct Pair {
   Index node = 0, cell = 0;
   Index first = 0, count = 0;  // into CandidateList::segments
+  Image image{0, 0};           // seen from the cell, the node lies at x[node] + displacement(image)
 };
 
 struct CandidateList {
-  std::vector<Pair> pairs;      // sorted by node, then cell
+  std::vector<Pair> pairs;      // sorted by node, then cell, then image
   std::vector<Index> segments;  // of each pair in increasing order
 
   std::span<const Index> of(const Pair& pair) const {
@@ -46,11 +47,12 @@ class LinkedNodes {
   LinkedNodes(const Sample& sample, const std::vector<Index>& cell_of);
   struct Partner {
     Index link = 0, node = 0, cell = 0;
+    Image image{0, 0};  // of the node whose partner this is, seen from the partner's cell
   };
   std::span<const Partner> of(Index node) const {
     return {partners_.data() + begin_[node], static_cast<std::size_t>(begin_[node + 1] - begin_[node])};
   }
-  bool ignores(const Sample& sample, Index node, Index cell, Index segment) const;
+  bool ignores(const Sample& sample, Index node, Index cell, const Image& image, Index segment) const;
   bool intact(Index link) const { return intact_[link] != 0; }
   void set_intact(Index link, std::uint8_t intact) { intact_[link] = intact; }
   std::size_t bytes() const;
@@ -72,8 +74,8 @@ struct CandidateRules {
   const BrokenBars* broken = nullptr;  // null: all bars stand
 
   bool gone(Index segment) const { return broken && broken->gone(segment); }
-  /// Whether the list must name this node and segment when the nodes are at x.
-  bool candidates(const Field& x, Index node, Index cell, Index segment) const;
+  /// Whether the list must name this node, or this image of it, and segment when the nodes are at x.
+  bool candidates(const Field& x, Index node, Index cell, Index segment, const Image& image = {0, 0}) const;
 };
 
 CandidateList find_candidates(const CandidateRules& rules, const Field& x);

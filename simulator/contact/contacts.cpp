@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace lamella {
 namespace {
@@ -67,7 +68,9 @@ void add_overlap_stiffness(Index node, const Feet& feet, const Overlap& o, doubl
   add_blocks(nodes, h, sink);
 }
 
-bool before(const Pair& a, const Pair& b) { return a.node != b.node ? a.node < b.node : a.cell < b.cell; }
+bool before(const Pair& a, const Pair& b) {
+  return std::tie(a.node, a.cell, a.image) < std::tie(b.node, b.cell, b.image);
+}
 
 }  // namespace
 
@@ -90,7 +93,7 @@ double Contacts::stiffness(const Pair& pair) const {
   if (!pair_stiffness_.empty()) {
     double linked = 0;
     for (const auto& partner : linked_.of(pair.node))
-      if (partner.cell == pair.cell) linked += pair_stiffness_[partner.link];
+      if (partner.cell == pair.cell && partner.image == pair.image) linked += pair_stiffness_[partner.link];
     if (linked > 0) k = linked;
   }
   return p_.bare[pair.cell] ? k : 0.5 * k;
@@ -108,7 +111,7 @@ double Contacts::dashpot(const Pair& pair) const {
 Contacts::Touch Contacts::touch(const CandidateList& list, const Pair& pair, const Field& x) const {
   Touch out;
   const double range = reach(pair);
-  out.feet = find_feet(sample_, x, pair.node, pair.cell, list.of(pair), range, rules_.broken);
+  out.feet = find_feet(sample_, x, pair.node, pair.cell, list.of(pair), range, rules_.broken, shift(pair));
   if (out.feet.count == 0) return out;
   out.overlap = overlap(out.feet, range);
   out.k = stiffness(pair);
@@ -155,7 +158,7 @@ double Contacts::safe_share(const Field& x, const Field& way) {
       const Index next = sample_.next(pair.cell, s);
       const Vec2 w = way.at(pair.node);
       const double relative = std::sqrt(std::max((w - way.at(s)).squaredNorm(), (w - way.at(next)).squaredNorm()));
-      const double distance = std::sqrt(squared_distance(x.at(pair.node), x.at(s), x.at(next)));
+      const double distance = std::sqrt(squared_distance(x.at(pair.node) + shift(pair), x.at(s), x.at(next)));
       if (share * relative > 0.5 * distance) share = 0.5 * distance / relative;
     }
   // What is not listed is further away than the reach, and what is left of the skin.
@@ -175,7 +178,7 @@ double Contacts::energy(const Field& x) const {
   double sum = 0;
   for_each_touch(x, [&](const Pair&, const Touch& t) { sum += t.k * t.overlap.energy; });
   for_each_spring([&](Index k, const Pair& pair, const FrictionSpring& spring) {
-    sum += sliding(k, slip_of(spring, x, pair.node)).potential;
+    sum += sliding(k, slip(spring, x, pair)).potential;
   });
   return sum;
 }
@@ -192,8 +195,8 @@ void Contacts::add_force(const Field& x, Field& f) const {
     }
   });
   for_each_spring([&](Index k, const Pair& pair, const FrictionSpring& spring) {
-    const Slip slip = slip_of(spring, x, pair.node);
-    add({pair.node, spring.segment, spring.next}, -sliding(k, slip).force * slip_gradient(spring, slip));
+    const Slip moved = slip(spring, x, pair);
+    add({pair.node, spring.segment, spring.next}, -sliding(k, moved).force * slip_gradient(spring, moved));
   });
 }
 
@@ -201,11 +204,11 @@ void Contacts::add_stiffness(const Field& x, StiffnessSink& sink) const {
   for_each_touch(
       x, [&](const Pair& pair, const Touch& t) { add_overlap_stiffness(pair.node, t.feet, t.overlap, t.k, x, sink); });
   for_each_spring([&](Index k, const Pair& pair, const FrictionSpring& spring) {
-    const Slip slip = slip_of(spring, x, pair.node);
-    const Sliding s = sliding(k, slip);
-    Matrix6 h = s.force * slip_stiffness(spring, x, pair.node);
+    const Slip moved = slip(spring, x, pair);
+    const Sliding s = sliding(k, moved);
+    Matrix6 h = s.force * slip_stiffness(spring, x, pair.node, shift(pair));
     if (s.slipped == 0) {
-      const Vector6 g = slip_gradient(spring, slip);
+      const Vector6 g = slip_gradient(spring, moved);
       h += tangential_stiffness(pair) * g * g.transpose();
     }
     add_blocks(std::array<Index, 3>{pair.node, spring.segment, spring.next}, h, sink);
@@ -260,10 +263,10 @@ void Contacts::evaluate_friction(Index k, const Touch& t, const Field& x) {
   double stretch = 0, force = 0;
   slid_[k] = 0;
   if (spring.acts()) {
-    const Slip slip = slip_of(spring, x, pair.node);
-    const Sliding s = sliding(k, slip);
-    outcome_[k][forces_[k]++] = {spring.segment,         spring.next, spring.t, -s.force * slip.tangent,
-                                 -s.force * slip.couple, Vec2(0, 0)};
+    const Slip moved = slip(spring, x, pair);
+    const Sliding s = sliding(k, moved);
+    outcome_[k][forces_[k]++] = {spring.segment,          spring.next, spring.t, -s.force * moved.tangent,
+                                 -s.force * moved.couple, Vec2(0, 0)};
     stretch = s.stretch;
     // The mean of the forces at both ends, as the stepper's own work: second order in the step while the limit changes.
     slid_[k] = 0.5 * (std::abs(spring.force) + std::abs(s.force)) * s.slipped;
@@ -365,10 +368,10 @@ std::optional<Index> Contacts::place_of(const Pair& pair) const {
 }
 
 /// Lists the pair (again) by the rules as they are now, as it was when the list was made. Returns its place.
-Index Contacts::list_pair(Index node, Index cell) {
-  Pair pair{node, cell, static_cast<Index>(list_.segments.size()), 0};
-  for (Index s = sample_.cell_begin[cell]; s < sample_.cell_begin[cell + 1]; ++s)
-    if (sample_.starts_segment(cell, s) && rules_.candidates(drift_.start(), node, cell, s))
+Index Contacts::list_pair(const Pair& asked) {
+  Pair pair{asked.node, asked.cell, static_cast<Index>(list_.segments.size()), 0, asked.image};
+  for (Index s = sample_.cell_begin[pair.cell]; s < sample_.cell_begin[pair.cell + 1]; ++s)
+    if (sample_.starts_segment(pair.cell, s) && rules_.candidates(drift_.start(), pair.node, pair.cell, s, pair.image))
       list_.segments.push_back(s), ++pair.count;
   if (const auto listed = place_of(pair)) {
     list_.pairs[*listed] = pair;
@@ -387,11 +390,16 @@ Index Contacts::list_pair(Index node, Index cell) {
   return static_cast<Index>(k);
 }
 
-double Contacts::pressing_across(Index l, const Field& x) const {
+std::array<Pair, 2> Contacts::pairs_of(Index l) const {
   const Link& link = sample_.links[l];
+  const Image image = sample_.link_image.empty() ? Image{0, 0} : sample_.link_image[l];
+  return {Pair{link.a, cell_of_[link.b], 0, 0, opposite(image)}, Pair{link.b, cell_of_[link.a], 0, 0, image}};
+}
+
+double Contacts::pressing_across(Index l, const Field& x) const {
   double sum = 0;
-  for (const auto& [node, cell] : {std::pair{link.a, cell_of_[link.b]}, std::pair{link.b, cell_of_[link.a]}})
-    if (const auto k = place_of({node, cell, 0, 0})) {
+  for (const Pair& across : pairs_of(l))
+    if (const auto k = place_of(across)) {
       const Touch t = touch(list_, list_.pairs[*k], x);
       sum += t.k * t.overlap.energy;
     }
@@ -399,11 +407,10 @@ double Contacts::pressing_across(Index l, const Field& x) const {
 }
 
 double Contacts::release(Index l, const Field& x, double f_t) {
-  const Link& link = sample_.links[l];
   linked_.set_intact(l, 0);
   double held = 0;
-  for (const auto& [node, cell] : {std::pair{link.a, cell_of_[link.b]}, std::pair{link.b, cell_of_[link.a]}}) {
-    const Index k = list_pair(node, cell);
+  for (const Pair& across : pairs_of(l)) {
+    const Index k = list_pair(across);
     if (p_.friction == 0) continue;
     // The link drags a by f_t t, and the contact by -k_t stretch T with T = -t; on b both signs turn.
     const Pair& pair = list_.pairs[k];

@@ -114,6 +114,13 @@ class Contacts final : public Term {
   double stiffness(const Pair& pair) const;
   double tangential_stiffness(const Pair& pair) const { return p_.tangential_ratio * stiffness(pair); }
   double reach(const Pair& pair) const;
+  /// Where the node of the pair is, seen from its cell, beside x [m].
+  Vec2 shift(const Pair& pair) const { return displacement(pair.image, sample_.box); }
+  Slip slip(const FrictionSpring& spring, const Field& x, const Pair& pair) const {
+    return slip_of(spring, x, pair.node, shift(pair));
+  }
+  /// The pairs of the two nodes of a link with the other's cell, a's first; unlisted.
+  std::array<Pair, 2> pairs_of(Index link) const;
   double dashpot(const Pair& pair) const;
   Touch touch(const CandidateList& list, const Pair& pair, const Field& x) const;
   Sliding sliding(Index pair, const Slip& slip) const;
@@ -125,8 +132,13 @@ class Contacts final : public Term {
   template <class Visit>
   void for_each_spring(Visit visit) const;
   std::optional<Index> place_of(const Pair& pair) const;
-  Index list_pair(Index node, Index cell);
-  std::vector<std::pair<Index, Index>> nodes_inside(const Field& x) const;
+  Index list_pair(const Pair& pair);
+  struct Inside {
+    Index node = 0, cell = 0;
+    Image image{0, 0};  // of the node, seen from the cell
+    auto operator<=>(const Inside&) const = default;
+  };
+  std::vector<Inside> nodes_inside(const Field& x) const;
   bool opened(Index cell) const { return rules_.broken && rules_.broken->opened(cell); }
 
   const Sample& sample_;
@@ -135,8 +147,8 @@ class Contacts final : public Term {
   SelfReach self_reach_;
   LinkedNodes linked_;
   CandidateRules rules_;
-  std::vector<double> pair_stiffness_;           // per link [N/m]; empty until one is set
-  std::vector<std::pair<Index, Index>> inside_;  // (node, cell): inside from the beginning, sorted
+  std::vector<double> pair_stiffness_;  // per link [N/m]; empty until one is set
+  std::vector<Inside> inside_;          // from the beginning, sorted
 
   Drift drift_;         // since the list was made
   bool stale_ = false;  // the rules have changed since

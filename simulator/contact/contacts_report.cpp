@@ -26,29 +26,31 @@ bool cross_each_other(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d
   return cross(b - a, c - a) * cross(b - a, d - a) < 0 && cross(d - c, a - c) * cross(d - c, b - c) < 0;
 }
 
-/// Ordered pairs of different cells whose boxes meet.
+/// Ordered pairs of cells whose boxes meet, the first of each displaced by the image.
 template <class Visit>
-void for_each_meeting(const std::vector<Box>& boxes, Visit visit) {
-  for (const auto& [a, b] : meeting_boxes(boxes, 0)) visit(a, b), visit(b, a);
+void for_each_meeting(const Sample& sample, const std::vector<Box>& boxes, Visit visit) {
+  for (const auto& [a, b, image] : meeting_boxes(sample, boxes, 0)) visit(a, b, image), visit(b, a, opposite(image));
 }
 
 }  // namespace
 
-std::vector<std::pair<Index, Index>> Contacts::nodes_inside(const Field& x) const {
+std::vector<Contacts::Inside> Contacts::nodes_inside(const Field& x) const {
   const auto boxes = bounding_boxes(sample_, x);
-  std::vector<std::pair<Index, Index>> found;
-  for_each_meeting(boxes, [&](Index guest, Index host) {
+  std::vector<Inside> found;
+  for_each_meeting(sample_, boxes, [&](Index guest, Index host, const Image& image) {
     if (!sample_.closed[host] || opened(host)) return;
+    const Vec2 off = displacement(image, sample_.box);
     for (Index i = sample_.cell_begin[guest]; i < sample_.cell_begin[guest + 1]; ++i)
-      if (boxes[host].contains(x.at(i)) && inside(sample_, x, host, x.at(i))) found.emplace_back(i, host);
+      if (const Vec2 p = x.at(i) + off; boxes[host].contains(p) && inside(sample_, x, host, p))
+        found.push_back({i, host, image});
   });
   std::sort(found.begin(), found.end());
   return found;
 }
 
 std::optional<std::string> Contacts::fault(const Field& x) const {
-  for (const auto& [node, cell] : nodes_inside(x))
-    if (!std::binary_search(inside_.begin(), inside_.end(), std::pair{node, cell}))
+  for (const auto& [node, cell, image] : nodes_inside(x))
+    if (!std::binary_search(inside_.begin(), inside_.end(), Inside{node, cell, image}))
       return fmt::format(
           "node {} of cell {} is inside cell {}, at ({:.6g}, {:.6g}) m; use a stiffer contact, a larger wall radius, "
           "slower loading or a smaller step",
@@ -56,11 +58,12 @@ std::optional<std::string> Contacts::fault(const Field& x) const {
 
   const auto boxes = bounding_boxes(sample_, x);
   std::optional<std::string> message;
-  for_each_meeting(boxes, [&](Index guest, Index chain) {
+  for_each_meeting(sample_, boxes, [&](Index guest, Index chain, const Image& image) {
     if (message || (sample_.closed[chain] && !opened(chain))) return;
     for (Index i = sample_.cell_begin[guest]; i < sample_.cell_begin[guest + 1]; ++i) {
       if (!sample_.starts_segment(guest, i) || rules_.gone(i)) continue;
-      const Vec2 a = x.at(i), b = x.at(sample_.next(guest, i));
+      const Vec2 off = displacement(image, sample_.box);
+      const Vec2 a = x.at(i) + off, b = x.at(sample_.next(guest, i)) + off;
       const Box& box = boxes[chain];
       if ((a.cwiseMax(b).array() < box.lo.array()).any() || (a.cwiseMin(b).array() > box.hi.array()).any()) continue;
       for (Index s = sample_.cell_begin[chain]; s < sample_.cell_begin[chain + 1]; ++s)
@@ -69,7 +72,7 @@ std::optional<std::string> Contacts::fault(const Field& x) const {
           message = fmt::format(
               "the wall of cell {} behind node {}, at ({:.6g}, {:.6g}) m, has gone through the wall of cell {}; use a "
               "stiffer contact, a larger wall radius, slower loading or a smaller step",
-              guest, i, a.x(), a.y(), chain);
+              guest, i, x.x[i], x.y[i], chain);
     }
   });
   return message;
@@ -79,12 +82,15 @@ void Contacts::save(ArraySet& restart) const {
   if (p_.friction == 0) return;
   std::vector<std::int32_t> places;
   std::vector<double> numbers;
+  std::vector<std::int32_t> images;
   for_each_spring([&](Index, const Pair& pair, const FrictionSpring& s) {
     places.insert(places.end(), {pair.node, pair.cell, s.segment, s.next});
+    images.insert(images.end(), {pair.image[0], pair.image[1]});
     numbers.insert(numbers.end(), {s.t, s.along, s.across, s.stretch, s.limit, s.force});
   });
   restart.add({"contact_spring_places", "1", "model", 1, std::move(places)});
   restart.add({"contact_springs", "1", "model", 1, std::move(numbers)});
+  if (is_periodic(sample_)) restart.add({"contact_spring_images", "1", "model", 1, std::move(images)});
   restart.add({"contact_dissipated", "J", "model", 1, std::vector<double>{dissipated_}});
 }
 
@@ -100,7 +106,11 @@ void Contacts::restore(const ArraySet& restart) {
   const auto& numbers = restart.doubles("contact_springs");
   dissipated_ = restart.doubles("contact_dissipated").at(0);
   for (std::size_t k = 0; 4 * k + 3 < places.size(); ++k) {
-    const Index pair = list_pair(places[4 * k], places[4 * k + 1]);
+    Image image{0, 0};
+    if (is_periodic(sample_))
+      for (std::size_t axis = 0; axis < 2; ++axis)
+        image[axis] = static_cast<std::int8_t>(restart.ints("contact_spring_images").at(2 * k + axis));
+    const Index pair = list_pair({places[4 * k], places[4 * k + 1], 0, 0, image});
     const double* v = numbers.data() + 6 * k;
     spring_[pair] = {places[4 * k + 2], places[4 * k + 3], v[0], v[1], v[2], v[3], v[4], v[5]};
     trial_[pair] = spring_[pair];
@@ -109,7 +119,7 @@ void Contacts::restore(const ArraySet& restart) {
 
 void Contacts::add_output(const Field& x, ArraySet& frame) const {
   std::vector<double> position, normal, force;
-  std::vector<std::int32_t> node, cell, slides;
+  std::vector<std::int32_t> node, cell, slides, image;
   for_each_touch(x, [&](const Pair& pair, const Touch& t) {
     const int heavy = heaviest(t.feet, t.overlap);
     for (int f = 0; f < t.feet.count; ++f) {
@@ -120,12 +130,13 @@ void Contacts::add_output(const Field& x, ArraySet& frame) const {
       position.insert(position.end(), {p.x(), p.y()});
       normal.insert(normal.end(), {foot.n.x(), foot.n.y()});
       node.push_back(pair.node), cell.push_back(pair.cell);
+      image.insert(image.end(), {pair.image[0], pair.image[1]});
       double f_t = 0;
       bool sliding_now = false;
       if (const auto k = place_of(pair); f == heavy && p_.friction > 0 && k && spring_[*k].acts()) {
-        const Slip slip = slip_of(spring_[*k], x, pair.node);
-        const Sliding s = sliding(*k, slip);
-        f_t = -s.force * slip.tangent.dot(left_of(foot.n));
+        const Slip moved = slip(spring_[*k], x, pair);
+        const Sliding s = sliding(*k, moved);
+        f_t = -s.force * moved.tangent.dot(left_of(foot.n));
         sliding_now = std::abs(s.force) >= spring_[*k].limit;
       }
       force.insert(force.end(), {t.k * t.overlap.lambda[f], f_t});
@@ -135,6 +146,7 @@ void Contacts::add_output(const Field& x, ArraySet& frame) const {
   frame.add({"contact_position", "m", "contact", 2, std::move(position)});
   frame.add({"contact_node", "1", "contact", 1, std::move(node)});
   frame.add({"contact_cell", "1", "contact", 1, std::move(cell)});
+  if (is_periodic(sample_)) frame.add({"contact_image", "1", "contact", 2, std::move(image)});
   frame.add({"contact_normal", "1", "contact", 2, std::move(normal)});
   frame.add({"contact_force", "N", "contact", 2, std::move(force)});
   if (p_.friction > 0) frame.add({"contact_sliding", "1", "contact", 1, std::move(slides)});
@@ -156,8 +168,8 @@ void add_foot_blocks(Index node, const Foot& foot, const Eigen::Matrix2d& m, Sti
 // Where a node has several feet it may be held in all directions (a crease), so each counts in all directions.
 void Contacts::add_possible_stiffness(const Field& x, StiffnessSink& sink) const {
   for (const Pair& pair : list_.pairs) {
-    const Feet feet =
-        find_feet(sample_, x, pair.node, pair.cell, list_.of(pair), reach(pair) + 2 * rules_.skin, rules_.broken);
+    const Feet feet = find_feet(sample_, x, pair.node, pair.cell, list_.of(pair), reach(pair) + 2 * rules_.skin,
+                                rules_.broken, shift(pair));
     const double k = stiffness(pair), k_t = p_.friction > 0 ? tangential_stiffness(pair) : 0.0;
     for (int f = 0; f < feet.count; ++f) {
       const Vec2 &n = feet.foot[f].n, t = left_of(n);
@@ -170,8 +182,8 @@ void Contacts::add_possible_stiffness(const Field& x, StiffnessSink& sink) const
 
 void Contacts::add_possible_damping(const Field& x, StiffnessSink& sink) const {
   for (const Pair& pair : list_.pairs) {
-    const Feet feet =
-        find_feet(sample_, x, pair.node, pair.cell, list_.of(pair), reach(pair) + 2 * rules_.skin, rules_.broken);
+    const Feet feet = find_feet(sample_, x, pair.node, pair.cell, list_.of(pair), reach(pair) + 2 * rules_.skin,
+                                rules_.broken, shift(pair));
     for (int f = 0; f < feet.count; ++f)
       add_foot_blocks(pair.node, feet.foot[f], dashpot(pair) * feet.foot[f].n * feet.foot[f].n.transpose(), sink);
   }

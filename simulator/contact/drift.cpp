@@ -5,6 +5,8 @@
 #include <limits>
 #include <numeric>
 
+#include "simulator/contact/images.h"
+
 namespace lamella {
 namespace {
 
@@ -29,8 +31,11 @@ std::vector<Box> bounding_boxes(const Sample& sample, const Field& x) {
   return boxes;
 }
 
-std::vector<std::pair<Index, Index>> meeting_boxes(const std::vector<Box>& boxes, double grow) {
-  std::vector<std::pair<Index, Index>> pairs;
+namespace {
+
+/// Pairs of boxes that meet when grown, the lower first, in no order.
+template <class Visit>
+void for_each_meeting_pair(const std::vector<Box>& boxes, double grow, Visit visit) {
   std::vector<Index> order(boxes.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return boxes[a].lo.x() < boxes[b].lo.x(); });
@@ -39,17 +44,52 @@ std::vector<std::pair<Index, Index>> meeting_boxes(const std::vector<Box>& boxes
     for (std::size_t m = k + 1; m < order.size() && boxes[order[m]].lo.x() <= a.hi.x() + 2 * grow; ++m) {
       const Box& b = boxes[order[m]];
       if (b.lo.y() <= a.hi.y() + 2 * grow && a.lo.y() <= b.hi.y() + 2 * grow)
-        pairs.push_back(std::minmax(order[k], order[m]));
+        visit(std::min(order[k], order[m]), std::max(order[k], order[m]));
     }
   }
-  std::sort(pairs.begin(), pairs.end());
-  return pairs;
+}
+
+/// The same of a periodic sample: cells are brought home, and those near its sides have copies beyond them.
+std::vector<Meeting> meeting_images(const Sample& sample, const std::vector<Box>& boxes, double grow) {
+  const Homes homes(sample, boxes);
+  std::vector<Box> copies;
+  std::vector<std::pair<Index, Steps>> of_copy;  // its cell, and by how many boxes that is displaced
+  for (Index c = 0; c < static_cast<Index>(boxes.size()); ++c)
+    homes.for_each_copy(boxes[c], c, 2 * grow, [&](const Steps& steps) {
+      const Vec2 off = homes.displacement(steps);
+      copies.push_back({boxes[c].lo + off, boxes[c].hi + off});
+      of_copy.emplace_back(c, steps);
+    });
+  std::vector<Meeting> found;
+  for_each_meeting_pair(copies, grow, [&](Index p, Index q) {
+    const auto& [a, of_a] = of_copy[p];
+    const auto& [b, of_b] = of_copy[q];
+    if (of_a != homes.home(a) && of_b != homes.home(b)) return;  // seen from one of the two at home as well
+    Meeting meeting{a, b, image_between(of_a, of_b)};
+    if (a > b || (a == b && meeting.image < Image{0, 0})) meeting = {b, a, opposite(meeting.image)};
+    found.push_back(meeting);
+  });
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+}  // namespace
+
+std::vector<Meeting> meeting_boxes(const Sample& sample, const std::vector<Box>& boxes, double grow) {
+  if (is_periodic(sample)) return meeting_images(sample, boxes, grow);
+  std::vector<Meeting> found;
+  for_each_meeting_pair(boxes, grow, [&](Index a, Index b) { found.push_back({a, b, {0, 0}}); });
+  std::sort(found.begin(), found.end());
+  return found;
 }
 
 Drift::Drift(const Sample& sample, const Field& x, double reach) : start_(x) {
   const auto boxes = bounding_boxes(sample, x);
   for (const Box& box : boxes) range_ += box.size().mean() / static_cast<double>(boxes.size());
-  neighbours_ = meeting_boxes(boxes, 0.5 * (reach + range_));
+  for (const Meeting& meeting : meeting_boxes(sample, boxes, 0.5 * (reach + range_)))
+    if (meeting.a != meeting.b && (neighbours_.empty() || neighbours_.back() != std::pair{meeting.a, meeting.b}))
+      neighbours_.emplace_back(meeting.a, meeting.b);
 }
 
 double Drift::relative(const Sample& sample, const Field& x) const {

@@ -1,6 +1,7 @@
 // How far neighbouring shells have moved against each other since the candidate list was made. Tells a list that is still good from one
 // that is not while the whole sample is being pulled: what counts is the relative motion of neighbours, not the way of the grips.
 #pragma once
+#include <compare>
 #include <utility>
 #include <vector>
 
@@ -12,8 +13,16 @@ namespace lamella {
 /// Boxes around the nodes of every cell.
 std::vector<Box> bounding_boxes(const Sample& sample, const Field& x);
 
-/// Pairs of different cells, the lower first, whose boxes, grown by `grow` on all sides, meet.
-std::vector<std::pair<Index, Index>> meeting_boxes(const std::vector<Box>& boxes, double grow);
+/// Cell a, displaced by the image, is near cell b: a < b, or a cell and its own image ahead.
+struct Meeting {
+  Index a = 0, b = 0;
+  Image image{0, 0};
+  auto operator<=>(const Meeting&) const = default;
+};
+
+/// Cells, and images of cells, whose boxes, grown by `grow` on all sides, meet. Each once, in order. Throws SolverError where cells
+/// of a periodic sample have moved apart by more boxes than an image can count.
+std::vector<Meeting> meeting_boxes(const Sample& sample, const std::vector<Box>& boxes, double grow);
 
 class Drift {
  public:
@@ -31,7 +40,7 @@ class Drift {
  private:
   Field start_;
   double range_ = 0;  // cells further apart than this (and the reach) are not neighbours [m]
-  std::vector<std::pair<Index, Index>> neighbours_;
+  std::vector<std::pair<Index, Index>> neighbours_;  // through whatever image: it moves as the cell does
 };
 
 }  // namespace lamella

@@ -28,10 +28,10 @@ void keep(Feet& feet, const Foot& foot) {
 }  // namespace
 
 Feet find_feet(const Sample& sample, const Field& x, Index node, Index cell, std::span<const Index> segments,
-               double reach, const BrokenBars* broken) {
+               double reach, const BrokenBars* broken, const Vec2& shift) {
   const auto stands = [&](Index segment) { return !broken || !broken->gone(segment); };
   Feet feet;
-  const Vec2 p = x.at(node);
+  const Vec2 p = x.at(node) + shift;
   const double reach2 = reach * reach;
   for (std::size_t k = 0; k < segments.size(); ++k) {
     const Index s = segments[k], next = sample.next(cell, s);

@@ -31,9 +31,9 @@ struct Feet {
 };
 
 /// Feet of `node` on those `segments` of `cell` that are nearer than `reach`, in the order of the segments. A bar that is broken is no
-/// segment, and its nodes are ends; none is with nullptr.
+/// segment, and its nodes are ends; none is with nullptr. In a periodic sample the node is an image of itself, displaced by `shift` [m].
 Feet find_feet(const Sample& sample, const Field& x, Index node, Index cell, std::span<const Index> segments,
-               double reach, const BrokenBars* broken = nullptr);
+               double reach, const BrokenBars* broken = nullptr, const Vec2& shift = Vec2(0, 0));
 
 /// Components of the node, of the segment's first node and of its second.
 using Vector6 = Eigen::Matrix<double, 6, 1>;

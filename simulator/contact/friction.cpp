@@ -8,14 +8,14 @@ namespace {
 
 const Eigen::Vector3d kTurn(0, -1, 1);  // the segment's vector from its nodes
 
-Vec2 arm(const FrictionSpring& spring, const Field& x, Index node) {
-  return x.at(node) - (1 - spring.t) * x.at(spring.segment) - spring.t * x.at(spring.next);
+Vec2 arm(const FrictionSpring& spring, const Field& x, Index node, const Vec2& shift) {
+  return x.at(node) + shift - (1 - spring.t) * x.at(spring.segment) - spring.t * x.at(spring.next);
 }
 
 }  // namespace
 
-Slip slip_of(const FrictionSpring& spring, const Field& x, Index node) {
-  const Vec2 e = x.at(spring.next) - x.at(spring.segment), p = arm(spring, x, node);
+Slip slip_of(const FrictionSpring& spring, const Field& x, Index node, const Vec2& shift) {
+  const Vec2 e = x.at(spring.next) - x.at(spring.segment), p = arm(spring, x, node, shift);
   const double length = e.norm();
   const Vec2 tau = e / length, m = left_of(tau);
   Slip slip;
@@ -29,8 +29,8 @@ Vector6 slip_gradient(const FrictionSpring& spring, const Slip& slip) {
   return stacked(foot_weights(spring.t), slip.tangent) + stacked(kTurn, slip.couple);
 }
 
-Matrix6 slip_stiffness(const FrictionSpring& spring, const Field& x, Index node) {
-  const Vec2 e = x.at(spring.next) - x.at(spring.segment), p = arm(spring, x, node);
+Matrix6 slip_stiffness(const FrictionSpring& spring, const Field& x, Index node, const Vec2& shift) {
+  const Vec2 e = x.at(spring.next) - x.at(spring.segment), p = arm(spring, x, node, shift);
   const double length = e.norm();
   const Vec2 tau = e / length, m = left_of(tau), tangent = spring.along * tau + spring.across * m;
   const Vector6 moved = stacked(foot_weights(spring.t), left_of(tangent)), turned = stacked(kTurn, m) / length;

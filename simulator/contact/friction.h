@@ -28,9 +28,10 @@ struct Slip {
   Vec2 tangent{0, 0};
   Vec2 couple{0, 0};  // of the gradient: on `next`, and its opposite on `segment`
 };
-Slip slip_of(const FrictionSpring& spring, const Field& x, Index node);
+/// `shift` displaces the node, where it is an image that touches [m].
+Slip slip_of(const FrictionSpring& spring, const Field& x, Index node, const Vec2& shift = Vec2(0, 0));
 Vector6 slip_gradient(const FrictionSpring& spring, const Slip& slip);
-Matrix6 slip_stiffness(const FrictionSpring& spring, const Field& x, Index node);
+Matrix6 slip_stiffness(const FrictionSpring& spring, const Field& x, Index node, const Vec2& shift = Vec2(0, 0));
 
 /// The spring anchored at `foot`, not stretched.
 FrictionSpring anchored_at(const Foot& foot, const Field& x);

@@ -120,8 +120,28 @@ void QuasiStatic::book_pressures(double time) {
   lever_ = std::move(now);
 }
 
+namespace {
+
+/// Along a direction that repeats, and in which nothing is held or pushed, the whole sample is at rest anywhere, and rounding would carry
+/// it off: it stays where it was.
+void keep_in_place(const Sample& sample, const std::vector<Load>& loads, const Field& before, Field& x) {
+  for (int c = 0; c < 2; ++c) {
+    const bool loose = std::none_of(loads.begin(), loads.end(),
+                                    [&](const Load& load) { return load.holds[c] || load.pushes_along[c]; });
+    if (!sample.periodic[static_cast<std::size_t>(c)] || !loose || x.size() == 0) continue;
+    const std::vector<double>& from = c == 0 ? before.x : before.y;
+    std::vector<double>& to = c == 0 ? x.x : x.y;
+    double way = 0;
+    for (std::size_t i = 0; i < to.size(); ++i) way += (to[i] - from[i]) / static_cast<double>(to.size());
+    for (double& at : to) at -= way;
+  }
+}
+
+}  // namespace
+
 /// The configuration at which the solver has just arrived becomes the present one.
 void QuasiStatic::accept(double time, Field x) {
+  keep_in_place(model_.sample, loads_, x_, x);
   const Field& f = solver_.force();
   Field dead = pushes(time);
   for (std::size_t k = 0; k < held_.size(); ++k) {

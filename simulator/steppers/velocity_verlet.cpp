@@ -93,7 +93,8 @@ double VelocityVerlet::hand_over(const Break& event, double dt) {
   Contacts& contacts = *model_.contacts;
   Field& x = state_.x;
   const Wall& wall = model_.sample.walls[model_.sample.links[event.link].wall];
-  const auto cells = {wall.cell_a, wall.cell_b};
+  std::vector<Index> cells{wall.cell_a};
+  if (wall.cell_b != wall.cell_a) cells.push_back(wall.cell_b);  // a cell beside its own image moves once
   const auto mean = [&](auto&& energy) {
     const double after = energy();
     std::vector<Vec2> kept;

@@ -29,7 +29,8 @@ CohesiveLinks::CohesiveLinks(const ShellLayout& layout, LinkParameters parameter
 void CohesiveLinks::make_stations() {
   for (auto* indices : {&a_, &b_, &link_, &cell_b_, &first_, &last_, &block_begin_, &block_middle_, &farthest_node_})
     indices->clear();
-  for (auto* values : {&k_n_, &k_t_, &offset_n_, &offset_t_, &inverse_strength_n_, &inverse_strength_t_})
+  for (auto* values :
+       {&k_n_, &k_t_, &offset_n_, &offset_t_, &image_x_, &image_y_, &inverse_strength_n_, &inverse_strength_t_})
     values->clear();
   const auto& links = standing_.empty() ? sample_.links : standing_;
   const auto cell_of = cell_of_node(sample_);
@@ -70,6 +71,11 @@ void CohesiveLinks::make_stations() {
     for (Index i = begin(b); i < end(b); ++i) farthest = std::max({farthest, a_[i], b_[i]});
     farthest_node_.push_back(farthest);
   }
+  if (!sample_.link_image.empty())
+    for (const Index l : link_) {
+      const Vec2 off = l < 0 ? Vec2(0, 0) : link_displacement(sample_, l);
+      image_x_.push_back(off.x()), image_y_.push_back(off.y());
+    }
   if (breakable()) {
     for (const Index l : link_) {
       inverse_strength_n_.push_back(l < 0 ? 0.0 : 1 / p_.normal_strength[l]);
@@ -108,10 +114,15 @@ void CohesiveLinks::add_stations(Index l, bool continues) {
   if (link.a_next != link.a || link.b_prev != link.b) add(link.a_next, link.b_prev, -1);
 }
 
+Vec2 CohesiveLinks::middle_of(Index l, const Field& x) const {
+  return 0.5 * (x.at(sample_.links[l].a) + x.at(sample_.links[l].b) + link_displacement(sample_, l));
+}
+
 CohesiveLinks::State CohesiveLinks::state(const Field& x, Index l) const {
   const Link& link = this->link(l);
   State s;
   s.d = x.at(link.b) - x.at(link.a);
+  if (!sample_.link_image.empty()) s.d += link_displacement(sample_, l);
   const Vec2 tau = (x.at(link.a_next) - x.at(link.a_prev)) - (x.at(link.b_next) - x.at(link.b_prev));
   s.tau = tau.norm();
   s.t = tau / s.tau;
@@ -147,6 +158,10 @@ bool CohesiveLinks::evaluate(const Field& x, Index first, Index last, LinkForces
   for (Index i = 0; i < count; ++i) {
     const double ax = X[A[i]], ay = Y[A[i]], bx = X[B[i]], by = Y[B[i]];
     DX[i] = bx - ax, DY[i] = by - ay, CX[i] = bx + ax, CY[i] = by + ay;
+  }
+  if (!image_x_.empty()) {
+    const double *IX = image_x_.data() + first, *IY = image_y_.data() + first;
+    for (Index i = 0; i < count; ++i) DX[i] += IX[i], DY[i] += IY[i];
   }
   const Index *START = first_.data() + first, *STOP = last_.data() + first;
   const double *KN = k_n_.data() + first, *KT = k_t_.data() + first;
@@ -186,6 +201,7 @@ bool CohesiveLinks::evaluate(const Field& x, Index first, Index last, LinkForces
 void CohesiveLinks::prefetch_stations(Index first, Index last) const {
   for (const auto* indices : {&a_, &b_, &first_, &last_}) prefetch(*indices, first, last);
   for (const auto* values : {&k_n_, &k_t_, &offset_n_, &offset_t_}) prefetch(*values, first, last);
+  if (!image_x_.empty()) prefetch(image_x_, first, last), prefetch(image_y_, first, last);
   if (!breakable()) return;
   prefetch(inverse_strength_n_, first, last);
   prefetch(inverse_strength_t_, first, last);
@@ -197,7 +213,7 @@ Break CohesiveLinks::broken_at(const Field& x, Index l) const {
   Break event;
   event.link = l;
   event.f_n = s.f_n, event.f_t = s.f_t;
-  event.position = 0.5 * (x.at(sample_.links[l].a) + x.at(sample_.links[l].b));
+  event.position = middle_of(l, x);
   event.energy = softens() ? s.potential + dissipated(l)
                            : 0.5 * (k_n > 0 ? s.f_n * s.f_n / k_n : 0.0) + 0.5 * (k_t > 0 ? s.f_t * s.f_t / k_t : 0.0);
   // A pressed pair keeps its normal force: contact takes over what the link held.
@@ -448,7 +464,8 @@ void CohesiveLinks::add_output(const Field& x, ArraySet& frame) const {
 std::size_t CohesiveLinks::bytes() const {
   return a_.size() * (6 * sizeof(Index) + (breakable() ? 6 : 4) * sizeof(double)) +
          intact_.size() * (sizeof(Index) + 1 + (breakable() ? 7 : 3) * sizeof(double)) +
-         standing_.size() * sizeof(Link) + zone_.size() * (sizeof(ZoneHistory) + 2 * sizeof(double));
+         (image_x_.size() + image_y_.size()) * sizeof(double) + standing_.size() * sizeof(Link) +
+         zone_.size() * (sizeof(ZoneHistory) + 2 * sizeof(double));
 }
 
 }  // namespace lamella

@@ -1,6 +1,7 @@
 // Cohesive links between facing nodes of two cells: W = 1/2 k_n (D.n - o_n)^2 + 1/2 k_t (D.t - o_t)^2 with D = x_b - x_a and the
 // frame of the current interface, t along tau = (x_a+ - x_a-) - (x_b+ - x_b-). The frame is differentiated too: a link
-// of finite length that carries f_t turns its walls by the couple f_t D_n, and a rigid rotation creates no force.
+// of finite length that carries f_t turns its walls by the couple f_t D_n, and a rigid rotation creates no force. In a periodic sample
+// x_b is that of the image which faces a: the image displaces b, and drops out of tau.
 //
 // WHERE DOES A LINK BREAK? In `break_exceeded`, here, and nowhere else. Whether it should is `yield_function` in laws/cohesive.h. Links that
 // soften before they break (laws/cohesive_zone.h) keep a history; what they need beyond the rest is in cohesive_links_damage.cpp.
@@ -157,6 +158,8 @@ class CohesiveLinks final : public Term {
     bool advances = false;  // damage grows here
   };
   State state(const Field& x, Index link) const;
+  /// Where the middle between its nodes is, beside a [m].
+  Vec2 middle_of(Index link, const Field& x) const;
   Break broken_at(const Field& x, Index link) const;
   void make_stations();
   void add_stations(Index link, bool continues);
@@ -184,6 +187,7 @@ class CohesiveLinks final : public Term {
   // loops 64 stations at a time, which spills its registers and leaves most stations of a block to the scalar remainder.
   std::vector<Index> first_, last_;
   std::vector<double> k_n_, k_t_, offset_n_, offset_t_;
+  std::vector<double> image_x_, image_y_;  // displacement of b [m]; empty unless the sample is periodic
   std::vector<double> inverse_strength_n_, inverse_strength_t_;  // [1/N]; empty: links never break
   std::vector<Index> station_;                                   // of each link of the sample
   // per link of the sample

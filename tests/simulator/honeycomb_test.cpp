@@ -107,6 +107,43 @@ TEST(Honeycomb, modulus_and_poisson_ratio_are_those_of_the_closed_form) {
   }
 }
 
+/// Energy per area of a honeycomb that repeats both ways, per square of the strain along an axis, when its box is a little longer there and
+/// its nodes are at rest: half the modulus with the strain across held.
+double energy_of_stretched_box(int rows, int columns, int axis) {
+  Sample sample = hexagons(rows, columns, 1, kGap, {true, true});
+  const double strain = 1e-6;
+  sample.box.hi[axis] += strain * sample.box.size()[axis];
+  for (Index c = 0; c < sample.cells(); ++c) {
+    double mean = 0;
+    for (Index i = sample.cell_begin[c]; i < sample.cell_begin[c + 1]; ++i) mean += sample.x[i][axis] / 6;
+    for (Index i = sample.cell_begin[c]; i < sample.cell_begin[c + 1]; ++i) sample.x[i][axis] += strain * mean;
+  }
+  const auto model = build_model(sample, honeycomb_stage(100, {}), field_of(sample.x));
+  Field x = field_of(sample.x);
+  // Newton's method; rigid motion of the whole is left free.
+  for (int iteration = 0; iteration < 3; ++iteration) {
+    Eigen::MatrixXd k = Eigen::MatrixXd::Zero(2 * x.size(), 2 * x.size());
+    Eigen::VectorXd f = Eigen::VectorXd::Zero(2 * x.size());
+    for (const Term* term : model->terms()) k += stiffness_of(*term, x), f += force_of(*term, x);
+    x = moved(x, k.completeOrthogonalDecomposition().solve(f));
+  }
+  return model->energy(x) / (strain * strain * sample.box.area());
+}
+
+TEST(Honeycomb, that_repeats_in_its_box_has_the_moduli_of_one_among_copies_of_itself) {
+  const Patch p;
+  const Field x = field_of(p.sample.x);
+  const auto model = build_model(p.sample, honeycomb_stage(100, {}), x);
+  for (const int axis : {0, 1}) {
+    Eigen::Matrix2d strain = Eigen::Matrix2d::Zero();
+    strain(axis, axis) = 1e-7;
+    const Eigen::Matrix2d s = stress_of(p, *model->links, moved(x, periodic_displacement(p, *model, x, strain)));
+    const double held = s(axis, axis) / strain(axis, axis);
+    for (const auto& [rows, columns] : {std::pair{2, 1}, {2, 3}, {4, 2}})
+      EXPECT_NEAR(2 * energy_of_stretched_box(rows, columns, axis) / held, 1, 1e-5) << rows << " x " << columns;
+  }
+}
+
 /// Stress, times L over strength, at which the first link of the central cell breaks when the outer cells follow the unit cell's
 /// solution, in explicit dynamics.
 double first_break(int axis) {

@@ -29,8 +29,9 @@ inline LinkScene link_scene(const char* per, double k_n, double k_t, std::option
 }
 
 /// Regular hexagons of side 1 (of the tiles), `segments` a side, facing centre lines at `gap`, links at all facing pairs. Two walls of each
-/// cell are along y. Cell (row, column) has index row * columns + column; wall k faces the direction 120 + 60 k degrees.
-inline Sample hexagons(int rows, int columns, int segments, double gap) {
+/// cell are along y. Cell (row, column) has index row * columns + column; wall k faces the direction 120 + 60 k degrees. Along y only an
+/// even number of rows repeats.
+inline Sample hexagons(int rows, int columns, int segments, double gap, const Periodic& periodic = {false, false}) {
   Sample s;
   const double pi = std::numbers::pi, pitch = std::sqrt(3.0), side = 1 - gap / std::sqrt(3.0);
   const int n = 6 * segments;
@@ -47,20 +48,29 @@ inline Sample hexagons(int rows, int columns, int segments, double gap) {
       add_cell(s, points, true, gap / 2, "cells");
     }
   s.tile_area.assign(s.cells(), 1.5 * pitch);
-  const auto index = [&](int r, int c) { return r < 0 || r >= rows || c < 0 || c >= columns ? -1 : r * columns + c; };
+  struct Neighbour {
+    Index cell = -1;
+    Image image{0, 0};
+  };
+  const auto index = [&](int r, int c) -> Neighbour {
+    const int right = c < 0 ? -1 : c / columns, up = r < 0 ? -1 : r / rows;  // at most one step beyond the sides
+    if ((right != 0 && !periodic[0]) || (up != 0 && !periodic[1])) return {};
+    return {(r - up * rows) * columns + c - right * columns,
+            {static_cast<std::int8_t>(right), static_cast<std::int8_t>(up)}};
+  };
   for (int r = 0; r < rows; ++r)
     for (int c = 0; c < columns; ++c) {
-      const int odd = r % 2, me = index(r, c);
-      const int neighbour[6] = {index(r + 1, c - 1 + odd), index(r, c - 1), index(r - 1, c - 1 + odd),
-                                index(r - 1, c + odd),     index(r, c + 1), index(r + 1, c + odd)};
+      const int odd = r % 2, me = r * columns + c;
+      const Neighbour neighbours[6] = {index(r + 1, c - 1 + odd), index(r, c - 1), index(r - 1, c - 1 + odd),
+                                       index(r - 1, c + odd),     index(r, c + 1), index(r + 1, c + odd)};
       for (int k = 0; k < 6; ++k) {
-        if (neighbour[k] < me) continue;
-        s.walls.push_back({me, neighbour[k], side});
+        const auto& [neighbour, image] = neighbours[k];
+        if (neighbour < me || (neighbour == me && !(image > Image{0, 0}))) continue;
+        s.walls.push_back({me, neighbour, side});
         for (int j = 0; j <= segments; ++j) {
           const auto of_a = [&](int i) { return s.cell_begin[me] + (k * segments + i) % n; };
-          const auto of_b = [&](int i) {
-            return s.cell_begin[neighbour[k]] + ((k + 3) % 6 * segments + segments - i) % n;
-          };
+          const Index first_b = s.cell_begin[neighbour];
+          const auto of_b = [&](int i) { return first_b + ((k + 3) % 6 * segments + segments - i) % n; };
           const bool first = j == 0, last = j == segments;
           Link link;
           link.a = of_a(j), link.b = of_b(j);
@@ -72,10 +82,12 @@ inline Sample hexagons(int rows, int columns, int segments, double gap) {
           link.length = first || last ? link.spacing / 2 : link.spacing;
           link.offset_n = gap;
           s.links.push_back(link);
+          if (periodic[0] || periodic[1]) s.link_image.push_back(image);
         }
       }
     }
-  s.box = {{-pitch / 2, -1}, {(columns - 0.5) * pitch, 1.5 * rows - 0.5}};
+  s.box = {{-pitch / 2, -1}, {(columns - 0.5) * pitch, 1.5 * rows - (periodic[1] ? 1 : 0.5)}};
+  s.periodic = periodic;
   return s;
 }
 

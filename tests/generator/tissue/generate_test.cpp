@@ -42,6 +42,35 @@ bool bitwise_equal(const Sample& a, const Sample& b) {
          a.links.size() == b.links.size() && a.cell_begin == b.cell_begin && a.side == b.side;
 }
 
+TEST(Tissue, that_repeats_covers_its_box_and_has_sides_only_where_it_does_not) {
+  for (const char* periodic : {"x", "y", "xy"}) {
+    for (const int count : {3, 40}) {
+      Scene scene = tissue(count);
+      scene.sample.periodic = periodic;
+      scene.sample.packing.fraction = 0.5;
+      Notes notes;
+      const Sample sample = generate(scene, notes);
+      EXPECT_THAT(check_sample(sample), IsEmpty()) << periodic << " " << count;
+      EXPECT_EQ(sample.cells(), count);
+      double tiles = 0;
+      for (const double area : sample.tile_area) tiles += area;
+      EXPECT_NEAR(tiles / sample.box.area(), 1, 1e-12);
+      int bits = 0;
+      for (const std::uint8_t side : sample.side) bits |= side;
+      const bool x = std::string(periodic) != "y", y = std::string(periodic) != "x";
+      EXPECT_EQ(bits, (x ? 0 : kLeft | kRight) | (y ? 0 : kBottom | kTop));
+      if (x && y) {
+        EXPECT_GE(sample.walls.size(), 2u * static_cast<unsigned>(count));  // three a cell, less what is welded
+      }
+      int across = 0;
+      for (const Image& image : sample.link_image) across += image != Image{0, 0};
+      EXPECT_GT(across, 0);
+      Notes again;
+      EXPECT_TRUE(bitwise_equal(sample, generate(scene, again)));
+    }
+  }
+}
+
 TEST(Tissue, edges_without_length_are_welded_even_where_no_welding_is_asked) {
   const TemporaryFolder folder;
   std::ofstream file(folder.path() / "square.csv");

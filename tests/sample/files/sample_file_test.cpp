@@ -117,6 +117,62 @@ TEST_F(SampleFile, a_sample_comes_back_as_it_was) {
   }
 }
 
+/// The two squares beside their own images: the box repeats along x, and each is linked to itself too.
+Sample periodic_squares() {
+  Sample sample = two_bonded_squares();
+  sample.periodic = {true, false};
+  sample.box.lo.x() = 0, sample.box.hi.x() = 1.1;
+  sample.link_image.assign(sample.links.size(), Image{0, 0});
+  sample.walls.push_back({1, 1, 1.0});
+  for (int i = 0; i <= 4; ++i) {
+    Link link;
+    link.a = 16 + 4 + i, link.b = 16 + (16 - i) % 16;
+    link.a_prev = i == 0 ? link.a : link.a - 1, link.a_next = i == 4 ? link.a : link.a + 1;
+    link.b_next = i == 0 ? link.b : 16 + (17 - i) % 16, link.b_prev = i == 4 ? link.b : 16 + 15 - i;
+    link.wall = 1, link.wall_end = i % 4 == 0;
+    link.length = link.spacing = 0.25, link.offset_n = 0.1;
+    sample.links.push_back(link);
+    sample.link_image.push_back({1, 0});
+  }
+  return sample;
+}
+
+TEST_F(SampleFile, a_periodic_sample_comes_back_with_its_images) {
+  const Sample sample = periodic_squares();
+  write_sample(path_, sample);
+  const Sample read = read_sample(path_);
+  EXPECT_EQ(read.periodic, sample.periodic);
+  EXPECT_EQ(read.link_image, sample.link_image);
+  write_sample(path_, two_bonded_squares());
+  EXPECT_EQ(read_sample(path_).periodic, (Periodic{false, false}));
+  EXPECT_TRUE(read_sample(path_).link_image.empty());
+  const h5::Node file = h5::Node::open(path_);
+  EXPECT_FALSE(file.has("periodic"));
+  EXPECT_FALSE(file.group("links").has("image"));
+}
+
+TEST_F(SampleFile, images_that_cannot_be_are_refused) {
+  const auto fault = [&](const std::function<void(Sample&)>& spoil) {
+    Sample sample = periodic_squares();
+    spoil(sample);
+    write_sample(path_, sample);
+    return message();
+  };
+  EXPECT_EQ(fault([](Sample&) {}), "no DataError");
+  EXPECT_THAT(fault([](Sample& s) {
+                s.link_image[1] = {0, 1};
+              }),
+              HasSubstr("'image' of link 1 is 1 along y; must be 0, because the sample does not repeat there"));
+  EXPECT_THAT(fault([](Sample& s) { s.link_image[1] = {100, 0}; }), HasSubstr("must be from -60 to 60"));
+  EXPECT_THAT(fault([](Sample& s) { s.link_image[1] = {1, 0}; }), HasSubstr("must be the same along wall 0"));
+  EXPECT_THAT(fault([](Sample& s) { s.link_image.pop_back(); }), HasSubstr("'image' has 9 rows; must have 10"));
+  EXPECT_THAT(fault([](Sample& s) {
+                for (std::size_t l = 5; l < 10; ++l) s.link_image[l] = {0, 0};
+              }),
+              HasSubstr("joins cell 1 to itself"));
+  EXPECT_THAT(fault([](Sample& s) { s.periodic = {false, false}; }), HasSubstr("the first must be the lower"));
+}
+
 TEST_F(SampleFile, the_same_sample_gives_the_same_bytes) {
   write_sample(path_, two_bonded_squares());
   const std::string first = bytes();
