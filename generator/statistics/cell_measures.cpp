@@ -57,22 +57,24 @@ double edge_length(const std::vector<Vec2>& points, std::size_t k) {
 /// Walks around a cell, from where the neighbour changes, and collects its walls.
 void add_walls(Index cell, const std::vector<EdgePlace>& across, const std::vector<Vec2>& points, MosaicMeasures& all) {
   const std::size_t count = across.size();
+  // Of a narrow torus a cell may meet one neighbour through several images, and itself: each image is a neighbour.
+  const auto same = [](const EdgePlace& a, const EdgePlace& b) { return a.cell == b.cell && a.image == b.image; };
   std::size_t start = 0;
-  while (start < count && across[start].cell == across[(start + count - 1) % count].cell) ++start;
-  Index before = -1;
+  while (start < count && same(across[start], across[(start + count - 1) % count])) ++start;
+  EdgePlace before;
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t k = (start + i) % count;
-    const Index there = across[k].cell;
-    if (there < 0) {
+    const EdgePlace& there = across[k];
+    if (there.cell < 0) {
       all.cells[cell].layer = 0;
-    } else if (there != before || i == 0) {
-      all.neighbours[cell].push_back(there);
-      if (there > cell) all.walls.push_back({cell, there, 0});
+    } else {
+      const bool first = i == 0 || !same(there, before);
+      if (first) all.neighbours[cell].push_back(there.cell);
+      if (comes_first(cell, there)) {
+        if (first) all.walls.push_back({cell, there.cell, 0});
+        all.walls.back().length += edge_length(points, k);
+      }
     }
-    if (there > cell) all.walls.back().length += edge_length(points, k);
-    // A cell of a narrow torus meets itself: each such edge is seen twice.
-    if (there == cell && across[k].edge > static_cast<Index>(k))
-      all.walls.push_back({cell, cell, edge_length(points, k)});
     before = there;
   }
   all.cells[cell].neighbours = static_cast<Index>(all.neighbours[cell].size());
@@ -97,22 +99,12 @@ void count_layers(MosaicMeasures& all) {
 
 }  // namespace
 
-std::vector<Vec2> corners_of(const Mosaic& mosaic, const MosaicCell& cell) {
-  std::vector<Vec2> points;
-  points.reserve(cell.vertex.size());
-  for (std::size_t k = 0; k < cell.vertex.size(); ++k) {
-    points.push_back(mosaic.vertices[cell.vertex[k]]);
-    if (!cell.image.empty()) points.back() += displacement(cell.image[k], mosaic.box);
-  }
-  return points;
-}
-
 MosaicMeasures measure(const Mosaic& mosaic) {
   const auto across = opposite_edges(mosaic);
   MosaicMeasures all;
   all.neighbours.resize(mosaic.cells.size());
   for (std::size_t c = 0; c < mosaic.cells.size(); ++c) {
-    const auto points = corners_of(mosaic, mosaic.cells[c]);
+    const auto points = polygon_of(mosaic, mosaic.cells[c]);
     all.cells.push_back(shape_of(points));
     all.cells.back().layer = -1;
     add_walls(static_cast<Index>(c), across[c], points, all);

@@ -32,7 +32,4 @@ struct MosaicMeasures {
 /// Throws SceneError as opposite_edges does.
 MosaicMeasures measure(const Mosaic& mosaic);
 
-/// Corners of a cell, images included [m].
-std::vector<Vec2> corners_of(const Mosaic& mosaic, const MosaicCell& cell);
-
 }  // namespace lamella

@@ -37,8 +37,7 @@ std::string wall_table(const Mosaic& mosaic, const PlainMosaic& plain) {
     for (std::size_t k = 0; k < cell.size(); ++k) {
       const EdgePlace there = across[c][k];
       const auto here = static_cast<Index>(c);
-      if (there.cell >= 0 && (there.cell < here || (there.cell == here && there.edge < static_cast<Index>(k))))
-        continue;
+      if (there.cell >= 0 && !comes_first(here, there)) continue;
       const Index a = cell[k], b = cell[(k + 1) % cell.size()];
       const int side = k < mosaic.cells[c].side.size() ? mosaic.cells[c].side[k] : 0;
       fmt::format_to(out, "{},{},{},{},{},{}\n", c, there.cell, a, b, (plain.vertices[b] - plain.vertices[a]).norm(),
