@@ -92,7 +92,7 @@ void order_by_rows(Mosaic& mosaic) {
   double area = 0;
   for (const auto& cell : mosaic.cells) {
     const auto points = polygon_of(mosaic, cell);
-    area += polygon_area(points.data(), static_cast<Index>(points.size()));
+    area += polygon_area(points);
   }
   const double row_height = std::sqrt(area / static_cast<double>(std::max<std::size_t>(1, mosaic.cells.size())));
   std::vector<Place> places;
@@ -114,7 +114,7 @@ void mark_rough_sides(Mosaic& mosaic) {
   double area = 0;
   for (const auto& cell : mosaic.cells) {
     const auto points = polygon_of(mosaic, cell);
-    area += polygon_area(points.data(), static_cast<Index>(points.size()));
+    area += polygon_area(points);
   }
   const double diameter = 2 * std::sqrt(area / (std::numbers::pi * static_cast<double>(mosaic.cells.size())));
   const double reach = 0.6 * diameter;
@@ -138,30 +138,6 @@ void mark_rough_sides(Mosaic& mosaic) {
       }
     }
   }
-}
-
-bool is_inside(const std::vector<Vec2>& polygon, const Vec2& point) {
-  bool inside = false;
-  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
-    const Vec2& a = polygon[i];
-    const Vec2& b = polygon[j];
-    if ((a.y() > point.y()) != (b.y() > point.y()) &&
-        point.x() < a.x() + (point.y() - a.y()) * (b.x() - a.x()) / (b.y() - a.y()))
-      inside = !inside;
-  }
-  return inside;
-}
-
-std::vector<Vec2> ways_home(const Vec2& point, const Box& box, const Periodic& periodic) {
-  const Vec2 period = box.size();
-  Vec2 home(0, 0);
-  for (int axis = 0; axis < 2; ++axis)
-    if (periodic[axis]) home[axis] = -std::floor((point[axis] - box.lo[axis]) / period[axis]);
-  std::vector<Vec2> ways;
-  for (int j = periodic[1] ? -1 : 0; j <= (periodic[1] ? 1 : 0); ++j)
-    for (int i = periodic[0] ? -1 : 0; i <= (periodic[0] ? 1 : 0); ++i)
-      ways.emplace_back((home + Vec2(i, j)).cwiseProduct(period));
-  return ways;
 }
 
 Index remove_cells_inside(Mosaic& mosaic, const std::vector<Vec2>& polygon) {
