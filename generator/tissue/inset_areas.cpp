@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "generator/sample/errors.h"
+#include "generator/sample/polygon.h"
 
 namespace lamella {
 namespace {

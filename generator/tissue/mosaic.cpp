@@ -140,6 +140,18 @@ void mark_rough_sides(Mosaic& mosaic) {
   }
 }
 
+std::vector<Vec2> ways_home(const Vec2& point, const Box& box, const Periodic& periodic) {
+  const Vec2 period = box.size();
+  Vec2 home(0, 0);
+  for (int axis = 0; axis < 2; ++axis)
+    if (periodic[axis]) home[axis] = -std::floor((point[axis] - box.lo[axis]) / period[axis]);
+  std::vector<Vec2> ways;
+  for (int j = periodic[1] ? -1 : 0; j <= (periodic[1] ? 1 : 0); ++j)
+    for (int i = periodic[0] ? -1 : 0; i <= (periodic[0] ? 1 : 0); ++i)
+      ways.emplace_back((home + Vec2(i, j)).cwiseProduct(period));
+  return ways;
+}
+
 Index remove_cells_inside(Mosaic& mosaic, const std::vector<Vec2>& polygon) {
   const auto removed = std::erase_if(mosaic.cells, [&](const MosaicCell& cell) {
     const Vec2 centre = polygon_centre(polygon_of(mosaic, cell));
