@@ -108,7 +108,8 @@ Mosaic make_packed_mosaic(const Scene& scene, Notes& notes, const Progress& prog
   if (progress) progress(0.7, "tessellation");
   std::optional<CellAreas> exact;
   if (scene.sample.areas) exact = make_cell_areas(packing, scene, notes, progress);
-  Tessellation tessellation = exact ? exact->tessellation : tessellate(packing, scene.sample.packing, periodic_of(scene.sample), notes);
+  Tessellation tessellation =
+      exact ? exact->tessellation : tessellate(packing, scene.sample.packing, periodic_of(scene.sample), notes);
   // Cocircular sites leave edges without length, which no wall can be made of: those are welded whatever is asked.
   const double share = std::max(scene.sample.walls.weld, 1e-9);
   origin.welded = weld_short_edges(tessellation, share * mean_edge_length(tessellation), &notes);
