@@ -8,6 +8,7 @@
 #include <numbers>
 #include <optional>
 
+#include "generator/packing/domain.h"
 #include "generator/packing/laguerre.h"
 #include "generator/packing/packing.h"
 #include "generator/packing/variation.h"
@@ -190,9 +191,10 @@ Box enclosing_box(const Sample& sample) {
 }
 
 void check(const Sample& sample, const SampleScene& asked) {
-  // A tessellation leaves no gap: where nothing is taken away or added it fills its box.
-  const bool fills = asked.kind == "tissue" && !asked.notch && !asked.domain && asked.shapes.empty();
-  auto violations = check_sample(sample, fills ? sample.box.area() : 0);
+  // A tessellation leaves no gap: where nothing is taken away or added it fills its box, or its domain.
+  const bool fills = asked.kind == "tissue" && !asked.notch && asked.shapes.empty();
+  const double room = !fills ? 0 : asked.domain ? make_domain(*asked.domain).area : sample.box.area();
+  auto violations = check_sample(sample, room);
   if (violations.empty()) return;
   violations.insert(violations.begin(), fmt::format("sample: the {} that the scene asks for is not sound", asked.kind));
   throw SceneError(violations);
