@@ -48,6 +48,7 @@ EnergyScale energy_scale(const std::vector<Snapshot>& snapshots) {
     scale.label = "elastic energy of a cell [" + unit.name + "]";
   }
   scale.largest /= scale.unit;
+  if (w0 > 0) scale.largest = std::max(scale.largest, 1e-6);  // below that, colours would show rounding
   if (!(scale.largest > 0)) scale.largest = 1;
   return scale;
 }

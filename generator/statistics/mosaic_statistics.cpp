@@ -112,7 +112,10 @@ MosaicStatistics statistics(const MosaicMeasures& measures, Index layers) {
   // Four standard deviations, and more bars where there are cells to fill them.
   const double high = std::max(1.5, 1 + 4 * s.all_areas.cv());
   const int bars = std::clamp(static_cast<int>(2 * std::cbrt(static_cast<double>(cells.size()))), 12, 80);
-  s.area_histogram = histogram(relative, 0, high, bars);
+  // The mean lies in the middle of a bar: equal areas are one bar, whatever their rounding.
+  const double width = 1 / (std::max(1.0, std::floor(bars / high)) + 0.5);
+  const int count = static_cast<int>(std::ceil(high / width));
+  s.area_histogram = histogram(relative, 0, count * width, count);
   if (s.counted == 0) return s;
   relate_areas(measures, counts, s);
   relate_neighbours(measures, counts, s);
