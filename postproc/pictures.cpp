@@ -85,13 +85,17 @@ Paths draw_snapshots(const std::filesystem::path& stem, const std::vector<Snapsh
       const CellEnergy energy = cell_energy(*snapshot.view);
       draw_cells(canvas, map, *snapshot.view,
                  [&](Index c) { return viridis(energy.total[c] / scale.unit / scale.largest); });
-      for (const Crack& crack : snapshot.cracks)
-        for (const CrackLine& line : crack.lines) {
-          std::vector<Vec2> points;
-          for (const Vec2& p : line.points) points.push_back(map(p));
-          if (points.size() == 1) points = link_mark(map, *snapshot.view, line.links[0], snapshot.view->x);
-          canvas.line(points, {kCrack, 1.7, {}});
-        }
+      draw_images(canvas, map, *snapshot.view, [&](const Vec2& displaced) {
+        const Vec2 on_page = map(displaced) - map(Vec2(0, 0));
+        for (const Crack& crack : snapshot.cracks)
+          for (const CrackLine& line : crack.lines) {
+            std::vector<Vec2> points;
+            for (const Vec2& p : line.points) points.push_back(map(p));
+            if (points.size() == 1) points = link_mark(map, *snapshot.view, line.links[0], snapshot.view->x);
+            for (Vec2& p : points) p += on_page;
+            canvas.line(points, {kCrack, 1.7, {}});
+          }
+      });
       if (setup) draw_grips(canvas, map, *snapshot.view, *setup);
       if (k == 0) draw_scale_bar(canvas, map, {area.lo.x(), corner.y() + header + panel_height});
     }

@@ -163,6 +163,7 @@ class Post {
     const std::vector<CellShape> shapes = cell_shapes(view);
     facts_.cell_stress.emplace_back(view.frame.time,
                                     mean_stress(sample, shapes, cell_stress(view, shapes, facts_.setup->depth)));
+    if (sample.periodic[1 - facts_.setup->axis]) return;  // the box holds its length across
     const double sign = facts_.setup->sign();
     frames_.lateral.emplace_back(value_at(facts_.curve.time, facts_.curve.strain, view.frame.time),
                                  sign * lateral_strain(sample, view.x, facts_.setup->axis));

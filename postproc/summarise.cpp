@@ -25,7 +25,7 @@ double mean_cell_size(const Sample& sample) {
 Vec2 rest_place(const Sample& sample, const Event& event) {
   if (event.bar < 0) {
     const Link& link = sample.links.at(event.link);
-    return 0.5 * (sample.x[link.a] + sample.x[link.b]);
+    return 0.5 * (sample.x[link.a] + sample.x[link.b] + link_displacement(sample, event.link));
   }
   Index c = 0;
   while (event.bar >= sample.cell_begin[c + 1]) ++c;
@@ -36,14 +36,19 @@ void add_test(Summary& summary, const SummaryInputs& facts) {
   const MaterialConstants& m = facts.constants;
   const TestSetup& setup = *facts.setup;
   const bool shear = setup.kind == "shear";
+  const Sample& sample = facts.last->sample;
+  const std::string sides =
+      sample.periodic[1 - setup.axis]
+          ? "the sample repeats across the axis, where its length is held: with the strain across at 0"
+          : "the sample's sides are free, the grips hold theirs";
   const std::string sign = setup.kind == "compression" ? " Compression counts positive here." : "";
   if (m.modulus)
     summary.add("test",
                 {shear ? "shear_modulus" : "young_modulus", *m.modulus, "Pa",
                  fmt::format("slope of the least-squares line of nominal stress over engineering strain, from the "
                              "first row to the last before the stress passes 30 % of its peak or a link breaks (strain "
-                             "{:.4g}); the sample's sides are free, the grips hold theirs",
-                             m.elastic_strain)});
+                             "{:.4g}); {}",
+                             m.elastic_strain, sides)});
   if (m.modulus)
     summary.add("test", {"modulus_r_squared", m.modulus_r_squared, "1", "coefficient of determination of that line"});
   if (m.poisson)
@@ -153,14 +158,18 @@ void add_fracture(Summary& summary, const SummaryInputs& facts) {
     const std::size_t count = std::min(kFirstBreaks, events.size());
     for (std::size_t k = 0; k < count; ++k) {
       const Vec2 at = rest_place(sample, events[k]);
-      distance +=
-          std::min((at - sample.box.lo).minCoeff(), (sample.box.hi - at).minCoeff()) / static_cast<double>(count);
+      double nearest = sample.box.size().maxCoeff();
+      for (int axis = 0; axis < 2; ++axis)
+        if (!sample.periodic[axis])
+          nearest = std::min({nearest, at[axis] - sample.box.lo[axis], sample.box.hi[axis] - at[axis]});
+      distance += nearest / static_cast<double>(count);
     }
-    summary.add("fracture",
-                {"first_breaks_to_boundary_in_cells", distance / size, "1",
-                 fmt::format("mean distance of the first {} breaks from the nearest side of the box, at rest, over "
-                             "the mean cell diameter",
-                             count)});
+    if (!(sample.periodic[0] && sample.periodic[1]))
+      summary.add("fracture",
+                  {"first_breaks_to_boundary_in_cells", distance / size, "1",
+                   fmt::format("mean distance of the first {} breaks from the nearest side of the box, at rest, over "
+                               "the mean cell diameter",
+                               count)});
     double shear = 0, energy = 0, links = 0;
     for (const Event& e : events) {
       links += e.bar < 0 ? 1 : 0;

@@ -146,15 +146,16 @@ Mesh links_mesh(const FrameView& view) {
   std::vector<float> opening;
   for (std::size_t l = 0; l < sample.links.size(); ++l) {
     const Link& link = sample.links[l];
-    for (Index node : {link.a, link.b}) {
+    const Vec2 displaced = link_displacement(sample, l);
+    for (const Vec2& end : {view.x[link.a], Vec2(view.x[link.b] + displaced)}) {
       mesh.connectivity.push_back(static_cast<std::int64_t>(mesh.points.size()));
-      mesh.points.push_back(view.x[node]);
+      mesh.points.push_back(end);
     }
     mesh.end_cell();
     id.push_back(static_cast<int>(l));
     wall.push_back(link.wall);
     intact.push_back(view.intact(static_cast<Index>(l)) ? 1 : 0);
-    opening.push_back(static_cast<float>(link_opening(view.link(static_cast<Index>(l)), view.x)));
+    opening.push_back(static_cast<float>(link_opening(view.link(static_cast<Index>(l)), view.x, displaced)));
   }
   add_array(mesh.cell_data, "link_id", std::move(id));
   add_array(mesh.cell_data, "wall_id", std::move(wall));
@@ -222,7 +223,8 @@ Mesh cracks_mesh(const FrameView& view, const std::vector<Crack>& cracks) {
       std::vector<Vec2> points = line.points;
       if (points.size() == 1) {  // a lone link within its wall: as long as what it stands for
         const Link link = view.link(line.links[0]);
-        const Vec2 half = 0.5 * link.length * link_frame(link, view.x).t;
+        const Vec2 displaced = link_displacement(view.sample, line.links[0]);
+        const Vec2 half = 0.5 * link.length * link_frame(link, view.x, displaced).t;
         points = {line.points[0] - half, line.points[0] + half};
       }
       for (const Vec2& p : points) {

@@ -23,18 +23,6 @@ Polygon circle(const Vec2& centre, double radius, int sides) {
   return polygon;
 }
 
-bool inside(const Polygon& polygon, const Vec2& p) {
-  bool odd = false;
-  for (std::size_t k = 0; k < polygon.size(); ++k) {
-    const Vec2 &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
-    if ((a.y() > p.y()) == (b.y() > p.y())) continue;
-    // Right of p: p is left of the edge taken upwards.
-    const bool up = b.y() > a.y();
-    if ((cross(b - a, p - a) > 0) == up) odd = !odd;
-  }
-  return odd;
-}
-
 Box box_of(const std::vector<Polygon>& loops) {
   Box box{loops[0][0], loops[0][0]};
   for (const Polygon& loop : loops)
@@ -128,10 +116,10 @@ void check_edges(const std::vector<Outline>& outlines, double least, std::vector
 /// Once no sides touch, one point of a hole stands for all.
 void check_holes(const std::vector<Outline>& outlines, std::vector<std::string>& faults) {
   for (std::size_t hole = 1; hole < outlines.size(); ++hole) {
-    if (!inside(outlines[0].points, outlines[hole].points[0]))
+    if (!is_inside(outlines[0].points, outlines[hole].points[0]))
       faults.push_back(fmt::format("{}: lies outside the domain; move it inside, or remove it", outlines[hole].key));
     for (std::size_t other = 1; other < outlines.size(); ++other)
-      if (other != hole && inside(outlines[other].points, outlines[hole].points[0]))
+      if (other != hole && is_inside(outlines[other].points, outlines[hole].points[0]))
         faults.push_back(fmt::format("{}: lies inside {}; remove it", outlines[hole].key, outlines[other].key));
   }
 }
@@ -172,23 +160,9 @@ std::vector<Outline> outlines_of(const DomainScene& scene, std::vector<std::stri
 
 }  // namespace
 
-double polygon_area(const Polygon& polygon) {
-  double twice = 0;
-  for (std::size_t k = 1; k + 1 < polygon.size(); ++k)
-    twice += cross(polygon[k] - polygon[0], polygon[k + 1] - polygon[0]);
-  return twice / 2;
-}
-
-double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
-  const Vec2 d = b - a;
-  const double length2 = d.squaredNorm();
-  const double t = length2 > 0 ? std::clamp((p - a).dot(d) / length2, 0.0, 1.0) : 0.0;
-  return (p - a - t * d).norm();
-}
-
 bool Domain::contains(const Vec2& p) const {
   bool odd = false;
-  for (const Polygon& loop : loops) odd = odd != inside(loop, p);
+  for (const Polygon& loop : loops) odd = odd != is_inside(loop, p);
   return odd;
 }
 

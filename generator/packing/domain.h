@@ -2,6 +2,7 @@
 #pragma once
 #include <vector>
 
+#include "generator/sample/polygon.h"
 #include "generator/sample/scene.h"
 #include "generator/sample/vec.h"
 
@@ -25,11 +26,5 @@ struct Domain {
 /// of equal area, with its first corner at angle 0. Throws SceneError with all faults: points that are not finite, outlines
 /// without area, or that cross or touch themselves or each other, holes outside the domain or inside one another.
 Domain make_domain(const DomainScene& scene);
-
-/// Signed: positive when the polygon is counter-clockwise [m2].
-double polygon_area(const std::vector<Vec2>& polygon);
-
-/// From p to the nearest point of the segment from a to b [m].
-double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b);
 
 }  // namespace lamella

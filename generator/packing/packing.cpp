@@ -138,7 +138,8 @@ Packing make_packing(const Scene& scene, const PackingProgress& progress, const 
   Sizes sizes = draw_sizes(sample.sizes, packing_scene.count, scene.seed, scene);
   if (at_random && factor)
     throw SceneError(
-        "sample.areas.sites = \"random\": sizes depend on the place here, and only a packing knows which disk is where; leave "
+        "sample.areas.sites = \"random\": sizes depend on the place here, and only a packing knows which disk is "
+        "where; leave "
         "sites out, or the layers' and gradient's sizes");
   std::optional<Domain> domain;
   if (sample.domain) domain = make_domain(*sample.domain);

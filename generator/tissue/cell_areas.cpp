@@ -107,7 +107,8 @@ void note_areas(const std::vector<double>& areas, const CellAreas& exact, const 
   notes.push_back(fmt::format(
       "areas of {} {} as prescribed to within {:.2g}, {:.6g} m2 together: {} Newton iterations, {} diagrams{}",
       areas.size(), exact.distance.empty() ? "tiles" : "insets", largest_error(areas, exact.shares), sum,
-      search.iterations, search.diagrams, scene.sweeps > 0 ? fmt::format(", {} sweep{}", scene.sweeps, scene.sweeps > 1 ? "s" : "") : ""));
+      search.iterations, search.diagrams,
+      scene.sweeps > 0 ? fmt::format(", {} sweep{}", scene.sweeps, scene.sweeps > 1 ? "s" : "") : ""));
 }
 
 }  // namespace

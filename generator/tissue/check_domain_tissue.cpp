@@ -9,27 +9,13 @@
 #include "generator/tissue/domain_tissue.h"
 
 namespace lamella {
-namespace {
-
-double distance_to(const Vec2& p, const Vec2& a, const Vec2& b) {
-  const Vec2 along = b - a;
-  const double t = std::clamp((p - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
-  return (p - a - t * along).norm();
-}
-
-double area_of(const std::vector<Vec2>& points) {
-  return polygon_area(points.data(), static_cast<Index>(points.size()));
-}
-
-}  // namespace
-
 std::vector<std::string> check_domain_tissue(const DomainTissue& tissue, const Loops& loops) {
   std::vector<std::string> faults;
   const auto& cells = tissue.mosaic.cells;
   std::vector<std::pair<Vec2, Vec2>> sides;
   double area = 0;
   for (const auto& loop : loops) {
-    area += area_of(loop);
+    area += polygon_area(loop);
     for (std::size_t k = 0; k < loop.size(); ++k) sides.emplace_back(loop[k], loop[(k + 1) % loop.size()]);
   }
   std::map<std::pair<Index, Index>, bool> edges;  // whether on the boundary
@@ -38,7 +24,7 @@ std::vector<std::string> check_domain_tissue(const DomainTissue& tissue, const L
   const double size = tissue.mosaic.box.size().maxCoeff();
   for (std::size_t c = 0; c < cells.size(); ++c) {
     const auto points = polygon_of(tissue.mosaic, cells[c]);
-    const double own = area_of(points);
+    const double own = polygon_area(points);
     if (!(own > 0)) faults.push_back(fmt::format("{}: area {}", cells[c].name, own));
     sum += own;
     for (std::size_t k = 0; k < points.size(); ++k) {
@@ -50,7 +36,7 @@ std::vector<std::string> check_domain_tissue(const DomainTissue& tissue, const L
       if (side < 0) continue;
       const auto& [a, b] = sides[side];
       const Vec2 &p = points[k], &q = points[(k + 1) % points.size()];
-      if (distance_to(p, a, b) > 1e-13 * size || distance_to(q, a, b) > 1e-13 * size)
+      if (distance_to_segment(p, a, b) > 1e-13 * size || distance_to_segment(q, a, b) > 1e-13 * size)
         faults.push_back(fmt::format("edge {} {} of {} does not lie on the boundary", u, v, cells[c].name));
       on_boundary += (q - p).dot((b - a).normalized());
     }

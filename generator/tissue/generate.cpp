@@ -8,6 +8,7 @@
 #include <numbers>
 #include <optional>
 
+#include "generator/packing/domain.h"
 #include "generator/packing/laguerre.h"
 #include "generator/packing/packing.h"
 #include "generator/packing/variation.h"
@@ -108,7 +109,8 @@ Mosaic make_packed_mosaic(const Scene& scene, Notes& notes, const Progress& prog
   if (progress) progress(0.7, "tessellation");
   std::optional<CellAreas> exact;
   if (scene.sample.areas) exact = make_cell_areas(packing, scene, notes, progress);
-  Tessellation tessellation = exact ? exact->tessellation : tessellate(packing, scene.sample.packing, periodic_of(scene.sample), notes);
+  Tessellation tessellation =
+      exact ? exact->tessellation : tessellate(packing, scene.sample.packing, periodic_of(scene.sample), notes);
   // Cocircular sites leave edges without length, which no wall can be made of: those are welded whatever is asked.
   const double share = std::max(scene.sample.walls.weld, 1e-9);
   origin.welded = weld_short_edges(tessellation, share * mean_edge_length(tessellation), &notes);
@@ -189,9 +191,10 @@ Box enclosing_box(const Sample& sample) {
 }
 
 void check(const Sample& sample, const SampleScene& asked) {
-  // A tessellation leaves no gap: where nothing is taken away or added it fills its box.
-  const bool fills = asked.kind == "tissue" && !asked.notch && !asked.domain && asked.shapes.empty();
-  auto violations = check_sample(sample, fills ? sample.box.area() : 0);
+  // A tessellation leaves no gap: where nothing is taken away or added it fills its box, or its domain.
+  const bool fills = asked.kind == "tissue" && !asked.notch && asked.shapes.empty();
+  const double room = !fills ? 0 : asked.domain ? make_domain(*asked.domain).area : sample.box.area();
+  auto violations = check_sample(sample, room);
   if (violations.empty()) return;
   violations.insert(violations.begin(), fmt::format("sample: the {} that the scene asks for is not sound", asked.kind));
   throw SceneError(violations);

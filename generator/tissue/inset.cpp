@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "generator/sample/polygon.h"
+
 namespace lamella {
 namespace {
 
@@ -104,12 +106,6 @@ class Shrinking {
   double last_ = 0;
 };
 
-double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
-  const Vec2 along = b - a;
-  const double t = std::clamp((p - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
-  return (p - a - t * along).norm();
-}
-
 bool cross_properly(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   return cross(b - a, c - a) * cross(b - a, d - a) < 0 && cross(d - c, a - c) * cross(d - c, b - c) < 0;
 }
@@ -135,7 +131,7 @@ bool is_sound(const std::vector<Vec2>& polygon, const std::vector<InsetEdge>& ed
       if (j > i + 1 && cross_properly(corner[i], corner[i + 1], corner[j], corner[end])) return false;
     }
   }
-  return polygon_area(corner.data(), static_cast<Index>(corner.size())) > 0;
+  return polygon_area(corner) > 0;
 }
 
 }  // namespace

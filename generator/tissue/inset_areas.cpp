@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "generator/sample/errors.h"
+#include "generator/sample/polygon.h"
 
 namespace lamella {
 namespace {
@@ -21,13 +22,6 @@ std::vector<Vec2> inset_corners(const std::vector<Vec2>& polygon, const Inset& i
     corners.push_back(start + edge.from * along + distance * left_of(along));
   }
   return corners;
-}
-
-double area_of(const std::vector<Vec2>& corners) {
-  double twice = 0;
-  for (std::size_t k = 1; k + 1 < corners.size(); ++k)
-    twice += cross(corners[k] - corners[0], corners[k + 1] - corners[0]);
-  return twice / 2;
 }
 
 /// Edges of a tile that have a direction. Cocircular sites leave edges without length.
@@ -44,7 +38,7 @@ std::vector<std::size_t> proper_edges(const Tessellation& tessellation, const Ti
 double inset_area(const std::vector<Vec2>& polygon, double distance) {
   const Inset inset = inset_polygon(polygon, distance);
   if (inset.outcome != Inset::Outcome::whole) return 0;
-  return std::max(0.0, area_of(inset_corners(polygon, inset, distance)));
+  return std::max(0.0, polygon_area(inset_corners(polygon, inset, distance)));
 }
 
 TileMeasures measure_insets(const Tessellation& tessellation, const std::vector<Vec2>& centres,
@@ -58,7 +52,7 @@ TileMeasures measure_insets(const Tessellation& tessellation, const std::vector<
     const double s = distance[tile.site];
     const Inset inset = inset_polygon(polygon, s);
     if (inset.outcome != Inset::Outcome::whole) continue;
-    measures.area[tile.site] = std::max(0.0, area_of(inset_corners(polygon, inset, s)));
+    measures.area[tile.site] = std::max(0.0, polygon_area(inset_corners(polygon, inset, s)));
     measures.centroid[tile.site] = tile_centroid(tessellation, tile);
     for (const InsetEdge& edge : inset.edges) {
       const Index other = tile.neighbour[proper[edge.edge]];

@@ -92,7 +92,7 @@ void order_by_rows(Mosaic& mosaic) {
   double area = 0;
   for (const auto& cell : mosaic.cells) {
     const auto points = polygon_of(mosaic, cell);
-    area += polygon_area(points.data(), static_cast<Index>(points.size()));
+    area += polygon_area(points);
   }
   const double row_height = std::sqrt(area / static_cast<double>(std::max<std::size_t>(1, mosaic.cells.size())));
   std::vector<Place> places;
@@ -114,7 +114,7 @@ void mark_rough_sides(Mosaic& mosaic) {
   double area = 0;
   for (const auto& cell : mosaic.cells) {
     const auto points = polygon_of(mosaic, cell);
-    area += polygon_area(points.data(), static_cast<Index>(points.size()));
+    area += polygon_area(points);
   }
   const double diameter = 2 * std::sqrt(area / (std::numbers::pi * static_cast<double>(mosaic.cells.size())));
   const double reach = 0.6 * diameter;
@@ -138,18 +138,6 @@ void mark_rough_sides(Mosaic& mosaic) {
       }
     }
   }
-}
-
-bool is_inside(const std::vector<Vec2>& polygon, const Vec2& point) {
-  bool inside = false;
-  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
-    const Vec2& a = polygon[i];
-    const Vec2& b = polygon[j];
-    if ((a.y() > point.y()) != (b.y() > point.y()) &&
-        point.x() < a.x() + (point.y() - a.y()) * (b.x() - a.x()) / (b.y() - a.y()))
-      inside = !inside;
-  }
-  return inside;
 }
 
 std::vector<Vec2> ways_home(const Vec2& point, const Box& box, const Periodic& periodic) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "generator/sample/polygon.h"
 #include "generator/sample/sample.h"
 
 namespace lamella {
@@ -70,8 +71,5 @@ Index remove_cells_inside(Mosaic& mosaic, const std::vector<Vec2>& polygon);
 
 /// What brings a point into a periodic box, and to its images around it: 3 or 9 displacements [m]; (0, 0) alone where nothing repeats.
 std::vector<Vec2> ways_home(const Vec2& point, const Box& box, const Periodic& periodic);
-
-/// Whether the point lies inside the closed polygon (either orientation).
-bool is_inside(const std::vector<Vec2>& polygon, const Vec2& point);
 
 }  // namespace lamella

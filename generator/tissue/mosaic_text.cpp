@@ -45,7 +45,7 @@ double filled_area(const PlainMosaic& plain) {
   for (const auto& cell : plain.cells) {
     points.clear();
     for (const Index v : cell) points.push_back(plain.vertices[v]);
-    area += polygon_area(points.data(), static_cast<Index>(points.size()));
+    area += polygon_area(points);
   }
   return area;
 }

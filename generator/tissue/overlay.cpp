@@ -7,6 +7,7 @@
 
 #include "generator/packing/random.h"
 #include "generator/sample/errors.h"
+#include "generator/sample/polygon.h"
 #include "generator/tissue/boundary_cut.h"
 
 namespace lamella {
@@ -196,7 +197,7 @@ class Overlayer {
     for (Piece& piece : pieces) {
       piece.first = edge_id[piece.first];
       const auto polygon = polygon_of(result_, piece);
-      piece.area = polygon_area(polygon.data(), static_cast<Index>(polygon.size()));
+      piece.area = polygon_area(polygon);
     }
     result_.pieces = std::move(pieces);
     return std::move(result_);
@@ -230,7 +231,7 @@ Loops displaced(const Loops& loops, double amplitude) {
 Overlay overlay(const Tessellation& tessellation, const Loops& loops) {
   double area = 0, farthest = 0;
   for (const auto& loop : loops) {
-    area += polygon_area(loop.data(), static_cast<Index>(loop.size()));
+    area += polygon_area(loop);
     for (const Vec2& p : loop) farthest = std::max(farthest, p.cwiseAbs().maxCoeff());
   }
   const double size = std::sqrt(std::abs(area) / static_cast<double>(tessellation.tiles.size()));

@@ -10,6 +10,7 @@
 
 #include "generator/packing/word_reader.h"
 #include "generator/sample/errors.h"
+#include "generator/sample/polygon.h"
 #include "generator/sample/sample.h"
 #include "generator/tissue/crossings.h"
 
@@ -122,7 +123,7 @@ void check_points(ImportedCell& cell, int& closing, Faults& faults) {
     repeated = true;
   }
   if (repeated) return;
-  const double area = polygon_area(points.data(), static_cast<Index>(points.size()));
+  const double area = polygon_area(points);
   double perimeter = 0;
   for (std::size_t k = 0; k < points.size(); ++k) perimeter += (points[(k + 1) % points.size()] - points[k]).norm();
   if (!(std::abs(area) > 1e-12 * perimeter * perimeter)) {

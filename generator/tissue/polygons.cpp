@@ -19,7 +19,7 @@ constexpr double kOnAnEdge = 1e-9;   // the same, where vertices are numbered an
 
 double mean_size(const std::vector<ImportedCell>& cells) {
   double area = 0;
-  for (const auto& cell : cells) area += polygon_area(cell.points.data(), static_cast<Index>(cell.points.size()));
+  for (const auto& cell : cells) area += polygon_area(cell.points);
   return std::sqrt(area / static_cast<double>(cells.size()));
 }
 
@@ -30,12 +30,6 @@ Box enclosing(const std::vector<Vec2>& points) {
     box.hi = box.hi.cwiseMax(p);
   }
   return box;
-}
-
-double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
-  const Vec2 along = b - a;
-  const double t = std::clamp((p - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
-  return (p - a - t * along).norm();
 }
 
 double distance_to_outline(const Vec2& p, const std::vector<Vec2>& outline) {

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "generator/sample/errors.h"
+#include "generator/sample/polygon.h"
 #include "generator/tissue/crossings.h"
 #include "generator/tissue/outlines.h"
 #include "generator/tissue/polygons.h"
@@ -235,7 +236,7 @@ Sample make_separate_tissue(const std::vector<ImportedCell>& imported, const Sam
   double area = 0;
   double perimeter = 0;
   for (const auto& cell : cells) {
-    area += polygon_area(cell.points.data(), static_cast<Index>(cell.points.size()));
+    area += polygon_area(cell.points);
     perimeter += ClosedLine(cell.points).length();
   }
   const double mean_area = area / static_cast<double>(cells.size());
@@ -287,8 +288,7 @@ Sample make_separate_tissue(const std::vector<ImportedCell>& imported, const Sam
     for (const Placed& p : placed[c]) outline.nodes.push_back(p.node);
     // Gaps are shared out as half the distance of facing centre lines: the area of the rounded outline.
     const auto polygon = polygon_of(order, order.cells[c]);
-    outline.tile_area = polygon_area(polygon.data(), static_cast<Index>(polygon.size())) + radius * lines[c].length() +
-                        std::numbers::pi * radius * radius;
+    outline.tile_area = polygon_area(polygon) + radius * lines[c].length() + std::numbers::pi * radius * radius;
     mark_sides(sample.box, reach, outline);
     bonding.cells.push_back(std::move(outline));
   }

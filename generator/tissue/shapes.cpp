@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "generator/sample/errors.h"
+#include "generator/sample/polygon.h"
 
 namespace lamella {
 namespace {
@@ -83,8 +84,7 @@ void add_shape(const ShapeScene& shape, const RadiusOfGroup& radius_of, Sample& 
       require((points[(k + 1) % points.size()] - points[k]).norm() > 0, shape,
               "two consecutive points coincide; the closing point is not repeated");
     }
-    require(shape.open || std::abs(polygon_area(points.data(), static_cast<Index>(points.size()))) > 0, shape,
-            "its points enclose no area");
+    require(shape.open || std::abs(polygon_area(points)) > 0, shape, "its points enclose no area");
     add_cell(sample, points, !shape.open, radius, shape.group);
   } else {
     require(false, shape, "unknown kind; chain, plate, box, ring or polygon");

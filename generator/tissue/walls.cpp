@@ -285,7 +285,7 @@ Bonding face_walls(const Mosaic& mosaic, const WallsScene& walls, const std::vec
     Outline& outline = bonding.cells[c];
     outline.name = cell.name;
     const auto polygon = polygon_of(mosaic, cell);
-    outline.tile_area = polygon_area(polygon.data(), static_cast<Index>(polygon.size()));
+    outline.tile_area = polygon_area(polygon);
     const std::size_t count = polygon.size();
     std::uint8_t bits_before = 0;
     for (std::size_t k = count; k-- > 0 && bits_before == 0;)
@@ -331,6 +331,7 @@ Sample make_tissue(const Mosaic& mosaic, const WallsScene& walls, double radius,
 Sample make_tissue(const Mosaic& mosaic, const WallsScene& walls, const RadiusOfGroup& radius_of, Notes& notes) {
   Sample sample;
   sample.box = mosaic.box;
+  sample.periodic = mosaic.periodic;
   std::vector<double> radius;
   bool vary = false;
   for (const MosaicCell& cell : mosaic.cells) {

@@ -132,6 +132,19 @@ void draw_cells(Canvas& canvas, const PageMap& map, const FrameView& view, const
   }
 }
 
+void draw_images(Canvas& canvas, const PageMap& map, const FrameView& view,
+                 const std::function<void(const Vec2&)>& draw) {
+  const Sample& sample = view.sample;
+  if (!is_periodic(sample)) return draw(Vec2(0, 0));
+  Box cells{map(view.x.front()), map(view.x.front())};
+  for (const Vec2& p : view.x) cells.lo = cells.lo.cwiseMin(map(p)), cells.hi = cells.hi.cwiseMax(map(p));
+  canvas.clipped(cells, [&] {
+    for (int j = sample.periodic[1] ? -1 : 0; j <= (sample.periodic[1] ? 1 : 0); ++j)
+      for (int i = sample.periodic[0] ? -1 : 0; i <= (sample.periodic[0] ? 1 : 0); ++i)
+        draw(Vec2(i, j).cwiseProduct(sample.box.size()));
+  });
+}
+
 std::vector<Vec2> bar_mark(const PageMap& map, const Sample& sample, Index cell, Index bar) {
   const Vec2 p = sample.x[bar], q = sample.x[sample.next(cell, bar)];
   // Long enough to be seen on thin walls, and never longer than the bar.
@@ -142,7 +155,8 @@ std::vector<Vec2> bar_mark(const PageMap& map, const Sample& sample, Index cell,
 
 std::vector<Vec2> link_mark(const PageMap& map, const FrameView& view, Index l, const std::vector<Vec2>& x) {
   const Link link = view.link(l);
-  const Vec2 t = link_frame(link, x).t, middle = link_middle(link, x);
+  const Vec2 displaced = link_displacement(view.sample, l);
+  const Vec2 t = link_frame(link, x, displaced).t, middle = link_middle(link, x, displaced);
   // An end link stands for the half spacing towards its wall's inside.
   double before = 0.5 * link.length, after = before;
   if (link.wall_end && link.a_prev == link.a) before = 0, after = link.length;

@@ -34,6 +34,10 @@ Box drawn_extent(const std::vector<const FrameView*>& views, const std::optional
 void draw_cells(Canvas& canvas, const PageMap& map, const FrameView& view, const std::function<Colour(Index)>& fill,
                 const Colour& wall = {0.10, 0.11, 0.14});
 
+/// Lines across the sample, drawn by `draw` with a displacement [m]: of a periodic sample in all images that reach the cells in the picture.
+void draw_images(Canvas& canvas, const PageMap& map, const FrameView& view,
+                 const std::function<void(const Vec2&)>& draw);
+
 /// The stretch of the crack that a broken link stands for: along its wall, as long as its tributary length, on the page.
 std::vector<Vec2> link_mark(const PageMap& map, const FrameView& view, Index link, const std::vector<Vec2>& x);
 

@@ -18,11 +18,12 @@ std::vector<Stress> cell_stress(const FrameView& view, const std::vector<CellSha
     for (std::size_t l = 0; l < sample.links.size(); ++l) {
       if (!view.intact(static_cast<Index>(l))) continue;
       const Link link = view.link(static_cast<Index>(l));
-      const LinkFrame frame = link_frame(link, view.x);
+      const Vec2 displaced = link_displacement(sample, l);
+      const LinkFrame frame = link_frame(link, view.x, displaced);
       const Vec2 on_a = (*link_force)[2 * l] * frame.n + (*link_force)[2 * l + 1] * frame.t;
-      const Vec2 middle = link_middle(link, view.x);
+      const Vec2 middle = link_middle(link, view.x, displaced);
       act(cell_of[link.a], on_a, middle);
-      act(cell_of[link.b], -on_a, middle);
+      act(cell_of[link.b], -on_a, middle - displaced);
     }
 
   if (const std::vector<double>* contact_force = view.doubles("contact_force")) {
@@ -30,11 +31,14 @@ std::vector<Stress> cell_stress(const FrameView& view, const std::vector<CellSha
     const std::vector<double>& normal = *view.doubles("contact_normal");
     const std::vector<std::int32_t>& node = *view.ints("contact_node");
     const std::vector<std::int32_t>& cell = *view.ints("contact_cell");
+    const std::vector<std::int32_t>* image = view.ints("contact_image");  // of the node, seen from the cell
     for (std::size_t k = 0; k < node.size(); ++k) {
       const Vec2 n(normal[2 * k], normal[2 * k + 1]), at(position[2 * k], position[2 * k + 1]);
       const Vec2 on_node = (*contact_force)[2 * k] * n + (*contact_force)[2 * k + 1] * left_of(n);
       act(cell_of[node[k]], on_node, at);
-      act(cell[k], -on_node, at);
+      const Vec2 displaced =
+          image ? Vec2((*image)[2 * k], (*image)[2 * k + 1]).cwiseProduct(sample.box.size()) : Vec2(0, 0);
+      act(cell[k], -on_node, at + displaced);
     }
   }
 

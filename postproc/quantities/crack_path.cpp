@@ -8,6 +8,7 @@
 
 #include "postproc/quantities/fragments.h"
 #include "postproc/quantities/link_frame.h"
+#include "postproc/quantities/loop_around.h"
 #include "postproc/quantities/union_find.h"
 
 namespace lamella {
@@ -83,7 +84,33 @@ Index farthest(const PathTree& tree, Index source) {
 
 }  // namespace
 
-CrackFinder::CrackFinder(const Sample& sample, int free_axis) : sample_(&sample) {
+/// Of a link, at home of its a.
+Vec2 CrackFinder::middle(Index link, const std::vector<Vec2>& x) const {
+  return link_middle(sample_->links[link], x, link_displacement(*sample_, link));
+}
+
+/// What brings the nearest image of a place to another place [m].
+Vec2 CrackFinder::towards(const Vec2& place, const Vec2& near) const {
+  Vec2 way(0, 0);
+  const Vec2 period = sample_->box.size();
+  for (int axis = 0; axis < 2; ++axis)
+    if (sample_->periodic[axis]) way[axis] = period[axis] * std::round((near[axis] - place[axis]) / period[axis]);
+  return way;
+}
+
+/// How often the run goes around the box along the free axis, on its way from one of its ends to the other.
+int CrackFinder::around(const Run& run, const Places& places) const {
+  if (!sample_->periodic[free_axis_] || run.from >= junctions_ || run.to >= junctions_) return 0;
+  Vec2 at = places.rest[run.from];
+  for (Index l = run.first; l <= run.last; ++l) {
+    const Vec2 next = middle(l, sample_->x);
+    at = next + towards(next, at);
+  }
+  const Vec2 end = places.rest[run.to];
+  return static_cast<int>(std::lround(towards(end, at)[free_axis_] / sample_->box.size()[free_axis_]));
+}
+
+CrackFinder::CrackFinder(const Sample& sample, int free_axis) : sample_(&sample), free_axis_(free_axis) {
   const auto walls = static_cast<Index>(sample.walls.size());
   wall_begin_.assign(walls + 1, 0);
   for (const Link& link : sample.links) ++wall_begin_[link.wall + 1];
@@ -149,9 +176,11 @@ CrackFinder::Places CrackFinder::places_of_junctions(const FrameView& view, cons
                 std::vector<int>(junctions_, 0)};
   const auto take = [&](Index vertex, Index link) {
     if (vertex >= junctions_) return;
-    places.now[vertex] += link_middle(sample_->links[link], view.x);
-    places.rest[vertex] += link_middle(sample_->links[link], sample_->x);
-    ++places.ends[vertex];
+    const Vec2 rest = middle(link, sample_->x);
+    const int ends = places.ends[vertex]++;
+    const Vec2 way = ends > 0 ? towards(rest, places.rest[vertex] / ends) : Vec2(0, 0);
+    places.now[vertex] += middle(link, view.x) + way;
+    places.rest[vertex] += rest + way;
   };
   for (const Run& run : runs) take(run.from, run.first), take(run.to, run.last);
   for (Index j = 0; j < junctions_; ++j)
@@ -163,10 +192,14 @@ CrackLine CrackFinder::make_line(const FrameView& view, const std::vector<Run>& 
                                  const std::vector<Index>& path) const {
   CrackLine line;
   const std::vector<double>* break_time = view.doubles("link_break_time");
+  const auto add_point = [&](const Vec2& now, const Vec2& rest) {
+    const Vec2 way = line.reference.empty() ? Vec2(0, 0) : towards(rest, line.reference.back());
+    line.points.push_back(now + way);
+    line.reference.push_back(rest + way);
+  };
   const auto add_junction = [&](Index vertex) {
     if (vertex >= junctions_ || places.ends[vertex] < 2) return;  // the crack's tip is its last link
-    line.points.push_back(places.now[vertex]);
-    line.reference.push_back(places.rest[vertex]);
+    add_point(places.now[vertex], places.rest[vertex]);
   };
   line.first_time = std::numeric_limits<double>::max();
   // The first run starts at the vertex that the second does not share.
@@ -184,10 +217,9 @@ CrackLine CrackFinder::make_line(const FrameView& view, const std::vector<Run>& 
       const Index l = forward ? run.first + k : run.last - k;
       const Link& link = sample_->links[l];
       line.links.push_back(l);
-      line.points.push_back(link_middle(link, view.x));
-      line.reference.push_back(link_middle(link, sample_->x));
+      add_point(middle(l, view.x), middle(l, sample_->x));
       line.length += link.length;
-      line.opening += link.length * link_opening(view.link(l), view.x);
+      line.opening += link.length * link_opening(view.link(l), view.x, link_displacement(*sample_, l));
       const double time = break_time ? (*break_time)[l] : view.frame.time;
       line.first_time = std::min(line.first_time, time), line.last_time = std::max(line.last_time, time);
     }
@@ -229,7 +261,14 @@ std::vector<Crack> CrackFinder::find(const FrameView& view) const {
       for (Index r : path) used[r] = 1;
       crack.lines.push_back(make_line(view, runs, places, path));
     };
-    if (crack.from_side_to_side && low != high) add_line(path_to(shortest_paths(runs, at, used, low), runs, high));
+    if (sample_->periodic[free_axis_]) {
+      std::vector<WoundEdge> edges;
+      for (Index r : members) edges.push_back({runs[r].from, runs[r].to, runs[r].length, around(runs[r], places)});
+      std::vector<Index> loop = shortest_loop_around(edges);
+      for (Index& edge : loop) edge = members[edge];
+      if (crack.from_side_to_side = !loop.empty(); crack.from_side_to_side) add_line(loop);
+    } else if (crack.from_side_to_side && low != high)
+      add_line(path_to(shortest_paths(runs, at, used, low), runs, high));
     // Then the longest shortest path of what is left, until nothing is.
     for (Index r : members) {
       while (!used[r]) {

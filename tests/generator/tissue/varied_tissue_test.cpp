@@ -7,11 +7,13 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <numbers>
 
 #include "generator/packing/domain.h"
 #include "generator/packing/variation.h"
 #include "generator/sample/errors.h"
+#include "generator/tissue/inset_areas.h"
 
 namespace lamella {
 namespace {
@@ -90,7 +92,8 @@ TEST(VariedTissue, fills_disks_rings_and_polygons_with_holes_and_repeats_bit_for
 TEST(VariedTissue, of_a_rectangular_domain_carries_side_bits_all_along_its_sides) {
   DomainScene rectangle{.kind = "polygon", .points = {{0, 0}, {10, 0}, {10, 6}, {0, 6}}, .holes = {}};
   Notes notes;
-  const Mosaic mosaic = make_domain_mosaic(in_domain(60, rectangle), notes, {});
+  Origin origin;
+  const Mosaic mosaic = make_domain_mosaic(in_domain(60, rectangle), notes, {}, origin);
   std::array<double, 16> length{};
   for (const MosaicCell& cell : mosaic.cells)
     for (std::size_t k = 0; k < cell.vertex.size(); ++k)
@@ -271,7 +274,8 @@ TEST(VariedTissue, is_drawn_out_by_the_ratio_and_along_the_angle_that_are_asked)
       const double angle = degrees * std::numbers::pi / 180;
       scene.sample.stretch = StretchScene{.ratio = 2, .angle = angle};
       Notes notes;
-      const Mosaic mosaic = make_domain_mosaic(scene, notes, {});
+      Origin origin;
+      const Mosaic mosaic = make_domain_mosaic(scene, notes, {}, origin);
       EXPECT_EQ(mosaic.cells.size(), 900u);
       double area = 0;
       for (const MosaicCell& cell : mosaic.cells) area += polygon_area(polygon_of(mosaic, cell));
@@ -319,5 +323,59 @@ TEST(VariedTissue, of_bricks_comes_through_the_front_door) {
   EXPECT_NEAR(sum_of(sample.tile_area), 60, 1e-12);
 }
 
+/// Areas of the tiles over the squares of the radii of their disks, largest over smallest: 1 when they are in proportion.
+double spread_of_shares(const Sample& sample, const Origin& origin) {
+  double least = 1e300, most = 0;
+  for (Index c = 0; c < sample.cells(); ++c) {
+    const std::size_t site = std::stoul(origin.tiles.cells[c].name.substr(5));
+    const double radius = origin.packing.disks[site].radius, share = sample.tile_area[c] / (radius * radius);
+    least = std::min(least, share), most = std::max(most, share);
+  }
+  return most / least;
+}
+
+TEST(VariedTissue, has_exact_areas_in_domains_and_when_drawn_out) {
+  Scene hollow = in_domain(150, ring()), leaf = in_domain(150, polygon()), drawn = in_box(150, 20, 10);
+  leaf.sample.areas = AreasScene{.of = "tile", .sites = "random", .sweeps = 6};
+  hollow.sample.areas = drawn.sample.areas = AreasScene{};
+  drawn.sample.stretch = StretchScene{.ratio = 2, .angle = 0.6};
+  for (Scene& scene : {std::ref(hollow), std::ref(leaf), std::ref(drawn)}) {
+    scene.sample.walls.weld = 0;
+    scene.stages.front().cells["cells"].thickness = 1e-4;  // walls without length, next to it, must not vanish
+    Notes notes;
+    Origin origin;
+    const Sample sample = generate(scene, notes, {}, &origin);
+    // Edges of a millionth of the mean wall are welded all the same.
+    EXPECT_LT(spread_of_shares(sample, origin), 1 + 1e-6);
+    scene.sample.areas.reset();
+    EXPECT_GT(spread_of_shares(generate(scene, notes, {}, &origin), origin), 1.1);
+  }
+}
+
+TEST(VariedTissue, has_exact_insets_where_walls_vary) {
+  Scene scene = in_box(150, 20, 10);
+  scene.sample.walls.weld = 0;
+  scene.sample.areas = AreasScene{.of = "inset"};
+  scene.sample.layers = {LayerScene{.from = 7, .to = 10, .polygon = {}, .group = "skin"}};
+  scene.stages.front().cells["skin"] = scene.stages.front().cells["cells"];
+  scene.stages.front().cells["skin"].thickness = 0.1;
+  GradientScene gradient;
+  gradient.along = "x";
+  gradient.thickness = {{0, 1}, {20, 3}};
+  scene.sample.gradient = gradient;
+  Notes notes;
+  Origin origin;
+  const Sample sample = generate(scene, notes, {}, &origin);
+  EXPECT_THAT(notes, testing::Not(Contains(HasSubstr("have not settled"))));
+  double least = 1e300, most = 0;
+  for (Index c = 0; c < sample.cells(); ++c) {
+    const std::size_t site = std::stoul(origin.tiles.cells[c].name.substr(5));
+    const double radius = origin.packing.disks[site].radius;
+    const double share =
+        inset_area(polygon_of(origin.tiles, origin.tiles.cells[c]), sample.radius[c]) / (radius * radius);
+    least = std::min(least, share), most = std::max(most, share);
+  }
+  EXPECT_LT(most / least, 1 + 1e-8);
+}
 }  // namespace
 }  // namespace lamella
