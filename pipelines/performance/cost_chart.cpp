@@ -24,6 +24,12 @@ Chart read_chart(std::istream& in) {
     chart.curves.back().x.push_back(size);
     chart.curves.back().y.push_back(seconds);
   }
+  for (std::size_t k = 0, lines = chart.curves.size(); k < lines; ++k) {
+    Curve dots = chart.curves[k];
+    dots.label.clear();
+    dots.drawn = CurveKind::kDots;
+    chart.curves.push_back(std::move(dots));
+  }
   return chart;
 }
 
