@@ -1,6 +1,7 @@
 #include "generator/sample/polygon.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace lamella {
 
@@ -21,11 +22,11 @@ double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
 bool is_inside(const std::vector<Vec2>& polygon, const Vec2& p) {
   bool odd = false;
   for (std::size_t k = 0; k < polygon.size(); ++k) {
-    const Vec2 &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
-    if ((a.y() > p.y()) == (b.y() > p.y())) continue;
-    // Right of p: p is left of the edge taken upwards.
-    const bool up = b.y() > a.y();
-    if ((cross(b - a, p - a) > 0) == up) odd = !odd;
+    const Vec2 *low = &polygon[k], *high = &polygon[(k + 1) % polygon.size()];
+    if ((low->y() > p.y()) == (high->y() > p.y())) continue;
+    // Always upwards, so that of two polygons with a common edge the same one has a point on it.
+    if (low->y() > high->y()) std::swap(low, high);
+    if (cross(*high - *low, p - *low) > 0) odd = !odd;  // the edge passes on the right of p
   }
   return odd;
 }

@@ -7,6 +7,7 @@
 
 #include "generator/sample/errors.h"
 #include "random_disks.h"
+#include "tests/support/temporary_folder.h"
 
 namespace lamella {
 namespace {
@@ -16,8 +17,10 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 
+/// One folder for all tests of this process: other processes run other tests at the same time.
 std::filesystem::path file_of(const std::string& text) {
-  const auto path = std::filesystem::path(testing::TempDir()) / "packing.csv";
+  static const TemporaryFolder folder;
+  const auto path = folder / "packing.csv";
   std::ofstream(path) << text;
   return path;
 }

@@ -13,6 +13,7 @@
 #include "generator/packing/sizes.h"
 #include "generator/sample/errors.h"
 #include "random_disks.h"
+#include "tests/support/temporary_folder.h"
 
 namespace lamella {
 namespace {
@@ -157,7 +158,8 @@ TEST(packing, few_disks_are_packed_too) {
 
 TEST(packing, a_scene_that_names_a_file_gets_its_disks_and_is_told_of_overlaps) {
   Scene scene;
-  const auto path = std::filesystem::path(testing::TempDir()) / "scene_packing.csv";
+  const TemporaryFolder folder;
+  const auto path = folder / "scene_packing.csv";
   scene.sample.packing.file = path.string();
   std::ofstream(path) << "1,1,0.5\n3,1,0.5\n";
   EXPECT_THAT(make_packing(scene).notes, IsEmpty());

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "generator/sample/errors.h"
+#include "tests/support/temporary_folder.h"
 
 namespace lamella {
 namespace {
@@ -216,7 +217,8 @@ TEST(sizes, the_seed_decides_and_nothing_else) {
 }
 
 TEST(sizes, a_file_gives_its_own_radii) {
-  const auto path = std::filesystem::path(testing::TempDir()) / "radii.txt";
+  static const TemporaryFolder folder;
+  const auto path = folder / "radii.txt";
   std::ofstream(path) << "# radii\n3\n1 # the smallest\n\n2\n";
   SizesScene scene = sizes("file", 0);
   scene.file = path.string();

@@ -297,9 +297,9 @@ TEST(PeriodicSample, is_not_sound_with_a_wrong_image_or_one_missing) {
       std::find_if(sound.link_image.begin(), sound.link_image.end(), [](const Image& image) { return image[0] != 0; }) -
       sound.link_image.begin();
   EXPECT_THAT(fault([&](Sample& s) { s.link_image[crossing] = {0, 0}; }), HasSubstr("not free of force"));
-  EXPECT_THAT(fault([&](Sample& s) { s.link_image[crossing][1] = 1; }), HasSubstr("displaced by"));
-  EXPECT_THAT(fault([&](Sample& s) { s.link_image.pop_back(); }), HasSubstr("have images"));
-  EXPECT_THAT(fault([&](Sample& s) { s.periodic = {false, false}; }), HasSubstr("have images"));
+  EXPECT_THAT(fault([&](Sample& s) { s.link_image[crossing][1] = 1; }), HasSubstr("where nothing repeats"));
+  EXPECT_THAT(fault([&](Sample& s) { s.link_image.pop_back(); }), HasSubstr("links have images"));
+  EXPECT_THAT(fault([&](Sample& s) { s.periodic = {false, false}; }), HasSubstr("links have images"));
   // One cell pushed half across the neighbour beyond the side of the box.
   EXPECT_THAT(fault([&](Sample& s) {
                 s.links.clear(), s.link_image.clear();
