@@ -125,6 +125,9 @@ Packing make_packing(const Scene& scene, const PackingProgress& progress, const 
     Packing packing =
         read_packing(scene.resolve(sample.packing.file), box_given ? &box : nullptr, sample.packing.duplicates);
     packing.periodic = periodic_of(packing_scene);
+    if (!packing.target_area.empty() && !sample.areas)
+      packing.notes.push_back(fmt::format(
+          "{}: states areas of cells, which cells have with a section [sample.areas] only", sample.packing.file));
     if (at_random) {
       scatter(packing, scene.seed);
       return packing;

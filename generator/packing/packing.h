@@ -26,6 +26,7 @@ struct Packing {
   std::vector<double>
       target_area;  // of each disk's cell, where a file states it [m2]; empty: in proportion to the disks
   std::vector<std::string> group;  // of each disk's cell; empty: "cells"
+  std::vector<double> thickness;   // factor on the wall's thickness of each disk's cell; empty: 1
   double fraction = 0;             // area of the disks over area of the box, or of the domain [1]
   double size_deviation = 0;       // of radii that depend on the place: largest relative error [1]
   std::vector<std::string> notes;  // what the user should see

@@ -56,7 +56,14 @@ void check_domain(Section domain, const DomainScene& scene) {
   }
 }
 
-void check_gradient(Section gradient, const GradientScene& scene) {
+constexpr double kLeastFactor = 0.05, kMostFactor = 20;  // as for the size of a layer
+
+void check_gradient(Section gradient, const GradientScene& scene, const std::string& periodic) {
+  if (periodic == "xy" ? scene.along != "radius" : periodic == scene.along)
+    gradient.fault("along",
+                   fmt::format("\"{}\": the sample repeats that way, and what changes would jump at its sides; "
+                               "choose the other way, or remove sample.periodic",
+                               scene.along));
   if (!gradient.has("size") && !gradient.has("thickness") && !gradient.has("strength"))
     gradient.fault("is empty; give size, thickness or strength as [[position, factor], ...]");
   for (const auto& [key, pairs] :
@@ -66,6 +73,11 @@ void check_gradient(Section gradient, const GradientScene& scene) {
       const Vec2& pair = (*pairs)[k];
       if (!(pair.y() > 0)) {
         gradient.fault(key, fmt::format("entry {}: the factor {:g} is not positive", k, pair.y()));
+        break;
+      }
+      if (!(pair.y() >= kLeastFactor && pair.y() <= kMostFactor)) {
+        gradient.fault(key, fmt::format("entry {}: the factor {:g} is not in {:g} to {:g}", k, pair.y(), kLeastFactor,
+                                        kMostFactor));
         break;
       }
       if (k > 0 && !(pair.x() > (*pairs)[k - 1].x())) {
@@ -102,7 +114,7 @@ void check_tissue_sections(const Value& table, const SampleScene& sample, Faults
       section.fault("refers to places in a box that follows from the disks; give width and height, or a domain");
   };
   if (Section gradient(table, "gradient", faults); gradient) {
-    check_gradient(gradient, *sample.gradient);
+    check_gradient(gradient, *sample.gradient, sample.periodic);
     needs_place(gradient);
     if (from_file && gradient.has("size"))
       gradient.fault("size", "contradicts packing.file, which gives the radii; keep one of them");

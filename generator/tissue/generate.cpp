@@ -62,71 +62,40 @@ Sample make_tissue(Mosaic& mosaic, const Scene& scene, Notes& notes, Origin& ori
   return sample;
 }
 
-std::vector<Vec2> centres_of(const Tessellation& tessellation, std::size_t sites) {
-  std::vector<Vec2> centres(sites, Vec2::Zero());
-  for (const Tile& tile : tessellation.tiles) centres[tile.site] = tile_centroid(tessellation, tile);
-  return centres;
-}
-
-CellAreas make_cell_areas(const Packing& packing, const Scene& scene, Notes& notes, const Progress& progress) {
-  std::vector<Vec2> places;
-  for (const Disk& disk : packing.disks) places.push_back(disk.centre);
-  std::vector<double> distance = inset_distances(packing, scene, places);
-  // Where walls differ from place to place, a cell's wall follows from the cell: again, until they agree.
-  for (int round = 1;; ++round) {
-    Notes own;
-    CellAreas areas = tessellate_with_areas(packing, *scene.sample.areas, periodic_of(scene.sample), distance, own,
-                                            [&](double done, const std::string& what) {
-                                              if (progress) progress(0.7 + 0.1 * done, what);
-                                            });
-    std::vector<double> found = distance;
-    if (scene.sample.areas->of == "inset" && (!scene.sample.layers.empty() || scene.sample.gradient))
-      found = inset_distances(packing, scene, centres_of(areas.tessellation, places.size()));
-    double change = 0;
-    for (std::size_t i = 0; i < found.size(); ++i) change = std::max(change, std::abs(found[i] / distance[i] - 1));
-    if (change < 1e-12 || round == 20) {
-      if (change >= 1e-12)
-        own.push_back(fmt::format(
-            "walls and areas depend on each other here, and have not settled: walls differ by up to {:.2g} from those "
-            "that the areas were made for",
-            change));
-      notes.insert(notes.end(), own.begin(), own.end());
-      return areas;
-    }
-    distance = std::move(found);
-  }
-}
-
 Mosaic make_packed_mosaic(const Scene& scene, Notes& notes, const Progress& progress, Origin& origin) {
   if (scene.sample.domain || scene.sample.stretch) return make_domain_mosaic(scene, notes, progress, origin);
-  const Packing& packing = origin.packing = make_packing(
+  const Periodic periodic = periodic_of(scene.sample);
+  Packing& packing = origin.packing = make_packing(
       scene,
       [&](double done, const std::string& what) {
         if (progress) progress(0.7 * done, what);
       },
       size_factor(scene.sample, {Vec2::Zero(), {scene.sample.width, scene.sample.height}}));
   notes.insert(notes.end(), packing.notes.begin(), packing.notes.end());
+  vary_disks(packing, scene.sample, packing.box, Eigen::Matrix2d::Identity(), notes);
   if (progress) progress(0.7, "tessellation");
   std::optional<CellAreas> exact;
-  if (scene.sample.areas) exact = make_cell_areas(packing, scene, notes, progress);
-  Tessellation tessellation =
-      exact ? exact->tessellation : tessellate(packing, scene.sample.packing, periodic_of(scene.sample), notes);
+  if (scene.sample.areas)
+    exact = tessellate_with_areas(packing, *scene.sample.areas, periodic, inset_distances(packing, scene), notes,
+                                  [&](double done, const std::string& what) {
+                                    if (progress) progress(0.7 + 0.1 * done, what);
+                                  });
+  Tessellation tessellation = exact ? exact->tessellation : tessellate(packing, scene.sample.packing, periodic, notes);
   // Cocircular sites leave edges without length, which no wall can be made of: those are welded whatever is asked.
   const double share = std::max(scene.sample.walls.weld, 1e-9);
   origin.welded = weld_short_edges(tessellation, share * mean_edge_length(tessellation), &notes);
   origin.hidden = static_cast<Index>(tessellation.hidden.size());
   if (exact) note_welded_areas(*exact, tessellation, origin.welded, notes);
   Mosaic mosaic = mosaic_of(tessellation);
-  if (!packing.group.empty())
-    for (std::size_t c = 0; c < mosaic.cells.size(); ++c)
-      mosaic.cells[c].group = packing.group[tessellation.tiles[c].site];
+  std::vector<Index> site;
+  for (const Tile& tile : tessellation.tiles) site.push_back(tile.site);
+  take_from_disks(packing, site, mosaic);
   return mosaic;
 }
 
 Sample make_packed_tissue(const Scene& scene, Notes& notes, const Progress& progress, Origin& origin) {
   Mosaic mosaic = make_packed_mosaic(scene, notes, progress, origin);
   if (progress) progress(0.8, "walls");
-  vary_cells(mosaic, scene.sample, notes);
   Sample sample = make_tissue(mosaic, scene, notes, origin);
   if (scene.sample.areas && scene.sample.areas->of == "inset")
     note_enclosed_areas(origin.tiles, scene.sample.walls.gap, sample, notes);

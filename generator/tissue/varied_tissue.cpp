@@ -61,13 +61,14 @@ Mosaic make_domain_mosaic(const Scene& scene, Notes& notes, const TissueProgress
   const PositionFactor factor = size_factor(asked, domain.box);
   PositionFactor squeezed_factor;
   if (factor) squeezed_factor = [&](const Vec2& p) { return factor(map * p); };
-  const Packing& packing = origin.packing = make_packing(
+  Packing& packing = origin.packing = make_packing(
       filled,
       [&](double done, const std::string& what) {
         if (progress) progress(0.7 * done, what);
       },
       squeezed_factor);
   notes.insert(notes.end(), packing.notes.begin(), packing.notes.end());
+  vary_disks(packing, asked, domain.box, map, notes);
   if (progress) progress(0.7, "tessellation");
   LaguerreOptions options;
   if (asked.packing.duplicates == "keep_first") options = {Duplicates::kKeepFirst, Hidden::kReport};
@@ -81,55 +82,58 @@ Mosaic make_domain_mosaic(const Scene& scene, Notes& notes, const TissueProgress
     tiles = tessellate(packing.disks, box_around(squeezed_domain.loops, packing.disks), options);
     report_hidden(tiles, notes);
     const double threshold = std::max(asked.walls.weld, 1e-9) * mean_edge_length(tiles);
-    if (const int welded = weld_short_edges(tiles, threshold); welded > 0)
+    origin.welded = weld_short_edges(tiles, threshold);
+    if (origin.welded > 0)
       notes.push_back(fmt::format("{} edges of at most {:.3g} m welded to a point, inside the domain or beside it",
-                                  welded, threshold));
+                                  origin.welded, threshold));
   }
   DomainTissue tissue = clip_tiles(tiles, squeezed_domain.loops, options, notes);
   draw_out(tissue, map, domain.box);
   const auto before = areas_of(tissue);
   origin.hidden = static_cast<Index>(tiles.hidden.size());
-  origin.welded = weld_short_edges(tissue, std::max(asked.walls.weld, kLeastWeld) * mean_wall_length(tissue), notes);
-  if (asked.areas) note_welded_areas(before, areas_of(tissue), origin.welded, notes);
+  const int welded = weld_short_edges(tissue, std::max(asked.walls.weld, kLeastWeld) * mean_wall_length(tissue), notes);
+  origin.welded += welded;
+  if (asked.areas) note_welded_areas(before, areas_of(tissue), welded, notes);
   mark_outer_sides(tissue);
-  if (!packing.group.empty())
-    for (std::size_t c = 0; c < tissue.mosaic.cells.size(); ++c)
-      tissue.mosaic.cells[c].group = packing.group[tissue.site[c]];
+  take_from_disks(packing, tissue.site, tissue.mosaic);
   return std::move(tissue.mosaic);
 }
 
-void vary_cells(Mosaic& mosaic, const SampleScene& scene, Notes& notes) {
+void vary_disks(Packing& packing, const SampleScene& scene, const Box& box, const Eigen::Matrix2d& map, Notes& notes) {
   PositionFactor thickness;
-  if (scene.gradient) thickness = gradient_factor(*scene.gradient, scene.gradient->thickness, "thickness", mosaic.box);
+  if (scene.gradient) thickness = gradient_factor(*scene.gradient, scene.gradient->thickness, "thickness", box);
   if (!thickness && scene.layers.empty()) return;
+  if (packing.group.empty()) packing.group.assign(packing.disks.size(), "cells");
   std::vector<Index> held(scene.layers.size(), 0);
-  for (MosaicCell& cell : mosaic.cells) {
-    const Vec2 centre = polygon_centre(polygon_of(mosaic, cell));
-    if (thickness) cell.thickness = thickness(centre);
-    const int layer = layer_at(scene.layers, mosaic.box, centre);
+  for (std::size_t i = 0; i < packing.disks.size(); ++i) {
+    const Vec2 at = map * packing.disks[i].centre;
+    if (thickness) packing.thickness.push_back(thickness(at));
+    const int layer = layer_at(scene.layers, box, at);
     if (layer < 0) continue;
     ++held[layer];
-    if (scene.layers[layer].group != "cells") cell.group = scene.layers[layer].group;
+    if (scene.layers[layer].group != "cells") packing.group[i] = scene.layers[layer].group;
   }
   for (std::size_t k = 0; k < held.size(); ++k)
     if (held[k] == 0)
       notes.push_back(fmt::format(
-          "sample.layers: layer {} (group \"{}\") holds the centre of no cell: {}", k, scene.layers[k].group,
+          "sample.layers: layer {} (group \"{}\") holds the centre of no disk: {}", k, scene.layers[k].group,
           k + 1 < held.size() ? "it lies elsewhere, is thinner than a cell, or later layers cover it"
                               : "it lies elsewhere, or is thinner than a cell"));
 }
 
-std::vector<double> inset_distances(const Packing& packing, const Scene& scene, const std::vector<Vec2>& places) {
-  const SampleScene& asked = scene.sample;
-  PositionFactor thickness;
-  if (asked.gradient) thickness = gradient_factor(*asked.gradient, asked.gradient->thickness, "thickness", packing.box);
+void take_from_disks(const Packing& packing, const std::vector<Index>& site, Mosaic& mosaic) {
+  for (std::size_t c = 0; c < mosaic.cells.size(); ++c) {
+    if (!packing.group.empty()) mosaic.cells[c].group = packing.group[site[c]];
+    if (!packing.thickness.empty()) mosaic.cells[c].thickness = packing.thickness[site[c]];
+  }
+}
+
+std::vector<double> inset_distances(const Packing& packing, const Scene& scene) {
   std::vector<double> distance;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    std::string group = packing.group.empty() ? "cells" : packing.group[i];
-    const int layer = layer_at(asked.layers, packing.box, places[i]);
-    if (layer >= 0 && asked.layers[layer].group != "cells") group = asked.layers[layer].group;
-    const double factor = thickness ? thickness(places[i]) : 1;
-    distance.push_back(factor * scene.stages.front().cell(group).outline_radius() + asked.walls.gap / 2);
+  for (std::size_t i = 0; i < packing.disks.size(); ++i) {
+    const std::string group = packing.group.empty() ? "cells" : packing.group[i];
+    const double factor = packing.thickness.empty() ? 1 : packing.thickness[i];
+    distance.push_back(factor * scene.stages.front().cell(group).outline_radius() + scene.sample.walls.gap / 2);
   }
   return distance;
 }

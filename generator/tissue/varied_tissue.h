@@ -17,13 +17,16 @@ using TissueProgress = std::function<void(double, const std::string&)>;
 /// welded and hidden.
 Mosaic make_domain_mosaic(const Scene& scene, Notes& notes, const TissueProgress& progress, Origin& origin);
 
-/// Groups and thicknesses of cells as [[sample.layers]] and [sample.gradient] say, by the cell's centre: a layer's group replaces what
-/// the cell has unless it is "cells". Notes name layers without a cell.
-void vary_cells(Mosaic& mosaic, const SampleScene& scene, Notes& notes);
+/// Groups and thickness factors of the disks' cells as [[sample.layers]] and [sample.gradient] say at the place of the disk, which also
+/// decides its size: a layer's group replaces what the disk has unless it is "cells". `map` takes centres to where they are drawn out
+/// to, `box` is that of the tissue. Notes name layers without a disk.
+void vary_disks(Packing& packing, const SampleScene& scene, const Box& box, const Eigen::Matrix2d& map, Notes& notes);
 
-/// By how much the walls of each disk's cell move in, were its centre at `places`: radius of its group times thickness factor, and half
-/// the gap [m].
-std::vector<double> inset_distances(const Packing& packing, const Scene& scene, const std::vector<Vec2>& places);
+/// Gives each cell what its disk has; `site` is that of each cell.
+void take_from_disks(const Packing& packing, const std::vector<Index>& site, Mosaic& mosaic);
+
+/// By how much the wall of each disk's cell moves in: radius of its group times thickness factor, and half the gap [m].
+std::vector<double> inset_distances(const Packing& packing, const Scene& scene);
 
 /// Strength factors of links by [sample.gradient], at the middle between the two nodes; thickness factors of shells that are no
 /// cells of the tissue. Nothing where nothing varies.

@@ -165,6 +165,10 @@ TEST(packing, a_scene_that_names_a_file_gets_its_disks_and_is_told_of_overlaps) 
   EXPECT_THAT(make_packing(scene).notes, IsEmpty());
   std::ofstream(path) << "1,1,0.5\n1.75,1,0.5\n";
   EXPECT_THAT(make_packing(scene).notes, ElementsAre(HasSubstr("by up to 0.25 m")));
+  std::ofstream(path) << "1,1,0.5,2\n3,1,0.5,2\n";
+  EXPECT_THAT(make_packing(scene).notes, ElementsAre(HasSubstr("with a section [sample.areas] only")));
+  scene.sample.areas = AreasScene{};
+  EXPECT_THAT(make_packing(scene).notes, IsEmpty());
   scene.sample.width = scene.sample.height = 1.5;
   EXPECT_THROW(make_packing(scene), SceneError);  // a centre outside the box
 }

@@ -69,6 +69,17 @@ TEST(tissue_faults, a_domain_excludes_a_box_and_what_repeats) {
               Contains(HasSubstr("sample.domain: has a boundary")));
 }
 
+TEST(tissue_faults, a_gradient_jumps_where_the_sample_repeats_or_is_out_of_range) {
+  const std::string gradient = "gradient = { along = \"x\", size = [[0, 1], [1, 2]] }\n";
+  EXPECT_THAT(faults(boxed("periodic = \"y\"\n" + gradient)), ElementsAre());
+  for (const char* along : {"x", "xy"})
+    EXPECT_THAT(faults(boxed(std::string("periodic = \"") + along + "\"\n" + gradient)),
+                ElementsAre(HasSubstr("sample.gradient.along: \"x\": the sample repeats that way")));
+  for (const char* factor : {"0.01", "1e6"})
+    EXPECT_THAT(faults(boxed(std::string("gradient.size = [[0, ") + factor + "]]\n")),
+                ElementsAre(HasSubstr("is not in 0.05 to 20")));
+}
+
 TEST(tissue_faults, a_gradient_is_empty_or_not_one) {
   EXPECT_THAT(faults(boxed("gradient.along = \"x\"\n")), ElementsAre(HasSubstr("sample.gradient: is empty")));
   EXPECT_THAT(faults(boxed("gradient.size = []\n")), Contains(HasSubstr("sample.gradient.size: is empty")));
