@@ -1,13 +1,17 @@
-// Time from a picture of 2000 x 2000 pixels and 5041 cells to polygons, by stages; for docs/generation.md, not a test.
+// Time from a picture of 2000 x 2000 pixels and 5041 cells to polygons, by stages; for docs/performance_generator.md, not a
+// test.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <random>
 
 #include "generator/image/boundaries.h"
 #include "generator/image/labels.h"
 #include "generator/image/laguerre_fit.h"
 #include "generator/image/segment.h"
+#include "generator/tissue/image_tissue.h"
 #include "generator/tissue/picture_walls.h"
 
 namespace lamella {
@@ -104,6 +108,48 @@ void fit_tessellation(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(fit_laguerre(labels));
 }
 
+/// A file that is gone with the program: binary PGM, two bytes a pixel where one is not enough.
+class File {
+ public:
+  explicit File(const Picture& picture) {
+    std::ofstream out(path_, std::ios::binary);
+    out << "P5\n" << picture.width << " " << picture.height << "\n" << picture.white << "\n";
+    for (const std::uint32_t value : picture.value) {
+      if (picture.white > 255) out.put(static_cast<char>(value >> 8));
+      out.put(static_cast<char>(value & 255));
+    }
+  }
+  ~File() { std::filesystem::remove(path_); }
+  File(const File&) = delete;
+  File& operator=(const File&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_ = std::filesystem::temp_directory_path() / "lamella_image_benchmark.pgm";
+};
+
+void make_mosaic(benchmark::State& state, const Picture& picture, const char* kind, const char* cells) {
+  const File file(picture);
+  Scene scene;
+  scene.sample.kind = "image";
+  scene.sample.image.emplace().file = file.path().string();
+  scene.sample.image->pixel = 1e-6;
+  scene.sample.image->kind = kind;
+  scene.sample.image->cells = cells;
+  scene.stages.emplace_back();
+  for (auto _ : state) {
+    Notes notes;
+    benchmark::DoNotOptimize(make_image_mosaic(scene, notes));
+  }
+}
+
+void labels_to_mosaic(benchmark::State& state) { make_mosaic(state, labels_picture(), "labels", "outlines"); }
+void micrograph_to_mosaic(benchmark::State& state) { make_mosaic(state, grey_picture(), "grey", "outlines"); }
+void labels_to_laguerre_cells(benchmark::State& state) { make_mosaic(state, labels_picture(), "labels", "laguerre"); }
+
+BENCHMARK(labels_to_mosaic)->Unit(benchmark::kMillisecond);
+BENCHMARK(micrograph_to_mosaic)->Unit(benchmark::kMillisecond);
+BENCHMARK(labels_to_laguerre_cells)->Unit(benchmark::kMillisecond);
 BENCHMARK(number_cells)->Unit(benchmark::kMillisecond);
 BENCHMARK(clean_cells)->Unit(benchmark::kMillisecond);
 BENCHMARK(trace)->Unit(benchmark::kMillisecond);

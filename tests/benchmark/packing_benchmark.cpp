@@ -1,4 +1,4 @@
-// Time to pack disks on a torus, one thread; for docs/generation.md, not a test.
+// Time to pack disks on a torus, one thread; for docs/performance_generator.md, not a test.
 #include <benchmark/benchmark.h>
 
 #include "generator/packing/packing.h"
