@@ -79,18 +79,15 @@ void spacing(StudyBench& bench) {
   const std::size_t samples = bench.small() ? 2 : 12;
   const std::vector<int> all = bench.small() ? std::vector<int>{4, 8, 12} : std::vector<int>{3, 4, 6, 8, 12, 16, 24};
   report.section("A tissue: the spacing of the links");
-  report.text(fmt::format(
-      "{} tissues of thirty-six cells (`tissue.toml`), m segments a wall, strengths per length of wall: means of their "
-      "peak stresses, and the standard error of each mean. Whatever the links, the same tissues are refined. The peak "
-      "of "
-      "brittle links falls as they come closer to the corners; that of links that soften (toughness 0.0256: over 0.4 "
-      "of a "
-      "wall) settles. (Where k_n = 2000: three of the tissues, and residual = 1e-6. At "
-      "the default, 1e-4, the search for equilibrium leaves its branch once among these runs, m = 12, sample 1, where "
-      "the "
-      "tissue breaks at 0.384; with half or twice the load step, or the smaller residual, it breaks at 0.470 to "
-      "0.485.)",
-      samples));
+  report.text(
+      fmt::format("{} tissues of thirty-six cells (`tissue.toml`), m segments a wall, strengths per length of wall: "
+                  "means of their peak stresses, and the standard error of each mean. Whatever the links, the same "
+                  "tissues are refined. The peak of brittle links falls as they come closer to the corners; that of "
+                  "links that soften (toughness 0.0256: over 0.4 of a wall) settles. Where k_n = 2000: three of the "
+                  "tissues, and residual = 1e-6. At the default, 1e-4, the search for equilibrium leaves its branch "
+                  "once among these runs, m = 12, sample 1, where the tissue breaks at 0.384; with half or twice the "
+                  "load step, or the smaller residual, it breaks at 0.470 to 0.485.",
+                  samples));
   struct Links {
     std::string name;
     bool softens;
