@@ -20,7 +20,6 @@
 #include "generator/tissue/lattice.h"
 #include "generator/tissue/missing_links.h"
 #include "generator/tissue/notch.h"
-#include "generator/tissue/periodic_bricks.h"
 #include "generator/tissue/polygon_file.h"
 #include "generator/tissue/polygons.h"
 #include "generator/tissue/shapes.h"
@@ -185,7 +184,7 @@ Sample generate(const Scene& scene, Notes& notes, const std::function<void(doubl
     Mosaic mosaic = make_honeycomb(asked);
     sample = make_tissue(mosaic, scene, notes, from);
   } else if (asked.kind == "bricks") {
-    Mosaic mosaic = asked.periodic == "none" ? make_bricks(asked) : make_periodic_bricks(asked);
+    Mosaic mosaic = make_bricks(asked);
     sample = make_tissue(mosaic, scene, notes, from);
   } else if (asked.kind == "polygons") {
     sample = make_imported_tissue(scene, notes, from);

@@ -8,9 +8,9 @@
 #include <set>
 
 #include "generator/sample/errors.h"
+#include "generator/tissue/bricks.h"
 #include "generator/tissue/lattice.h"
 #include "generator/tissue/notch.h"
-#include "generator/tissue/periodic_bricks.h"
 #include "generator/tissue/walls.h"
 
 namespace lamella {
@@ -216,7 +216,7 @@ TEST(PeriodicBricks, fill_their_box_and_share_all_walls_but_those_on_sides_that_
         for (const int rows : {2, 4}) {
           SCOPED_TRACE(std::string(periodic) + " " + std::to_string(shift) + " " + std::to_string(columns) + " x " +
                        std::to_string(rows));
-          const Mosaic mosaic = make_periodic_bricks(bricks(columns, rows, periodic, shift));
+          const Mosaic mosaic = make_bricks(bricks(columns, rows, periodic, shift));
           double area = 0, free = 0, marked = 0;
           const auto opposite = opposite_edges(mosaic);
           for (std::size_t c = 0; c < mosaic.cells.size(); ++c) {
@@ -248,10 +248,10 @@ TEST(PeriodicBricks, fill_their_box_and_share_all_walls_but_those_on_sides_that_
 }
 
 TEST(PeriodicBricks, of_an_odd_number_of_shifted_rows_do_not_repeat_along_y) {
-  EXPECT_THROW(make_periodic_bricks(bricks(2, 3, "y", 0.5)), SceneError);
-  EXPECT_NO_THROW(make_periodic_bricks(bricks(2, 3, "y", 0.0)));
-  EXPECT_NO_THROW(make_periodic_bricks(bricks(2, 3, "x", 0.5)));
-  EXPECT_THROW(make_periodic_bricks(bricks(2, 2, "x", 1.5)), SceneError);
+  EXPECT_THROW(make_bricks(bricks(2, 3, "y", 0.5)), SceneError);
+  EXPECT_NO_THROW(make_bricks(bricks(2, 3, "y", 0.0)));
+  EXPECT_NO_THROW(make_bricks(bricks(2, 3, "x", 0.5)));
+  EXPECT_THROW(make_bricks(bricks(2, 2, "x", 1.5)), SceneError);
 }
 
 TEST(PeriodicNotch, cuts_the_same_wherever_the_box_begins) {
