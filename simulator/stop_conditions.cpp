@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "generator/sample/errors.h"
+#include "generator/sample/union_find.h"
 #include "generator/sample/voids.h"
 
 namespace lamella {
@@ -58,18 +59,13 @@ std::optional<std::string> StopConditions::packed(const Field& field, double tim
 std::vector<Index> parts_of(const Model& model) {
   const Sample& sample = model.sample;
   const Pieces pieces = pieces_of(sample, model.rupture ? &model.rupture->broken() : nullptr);
-  std::vector<Index> parent(pieces.count);
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](Index node) {
-    Index c = pieces.of_node[node];
-    while (parent[c] != c) c = parent[c] = parent[parent[c]];
-    return c;
-  };
+  UnionFind joined(pieces.count);
   if (model.links)
     for (std::size_t l = 0; l < sample.links.size(); ++l)
-      if (model.links->intact(static_cast<Index>(l))) parent[root(sample.links[l].a)] = root(sample.links[l].b);
+      if (model.links->intact(static_cast<Index>(l)))
+        joined.join(pieces.of_node[sample.links[l].a], pieces.of_node[sample.links[l].b]);
   std::vector<Index> part(sample.nodes());
-  for (Index i = 0; i < sample.nodes(); ++i) part[i] = root(i);
+  for (Index i = 0; i < sample.nodes(); ++i) part[i] = joined.root(pieces.of_node[i]);
   return part;
 }
 

@@ -64,7 +64,7 @@ class Joining {
  private:
   Index count() const { return static_cast<Index>(regions_.area.size()); }
   bool is_piece(Index r) const { return regions_.cell[r] >= 0 && largest_[regions_.cell[r]] != r; }
-  Index keeper(Index r) { return keeper_.empty() ? r : keeper_[sets_.find(r)]; }
+  Index keeper(Index r) { return keeper_.empty() ? r : keeper_[sets_.root(r)]; }
 
   /// For every region that may leave, the region across every side of its pixels.
   void find_boundaries(const std::vector<Index>& leaving) {
@@ -116,13 +116,13 @@ class Joining {
     }
     across_[slot_[r]] = {};
     sets_.join(r, target);
-    keeper_[sets_.find(r)] = target;
+    keeper_[sets_.root(r)] = target;
   }
 
   LabelImage& labels_;
   int least_area_;
   Regions regions_;
-  Sets sets_;
+  UnionFind sets_;
   std::vector<Index> largest_;              // per cell: its largest region
   std::vector<Index> slot_;                 // per region: into across_, -1 where it stays
   std::vector<std::vector<Index>> across_;  // regions as first numbered

@@ -10,7 +10,7 @@ namespace lamella {
 Regions regions_of(const LabelImage& labels) {
   Regions regions;
   regions.of.resize(labels.pixels());
-  Sets sets;
+  UnionFind sets;
   const auto w = static_cast<std::size_t>(labels.width);
   for (int y = 0; y < labels.height; ++y)
     for (int x = 0; x < labels.width; ++x) {
@@ -22,7 +22,7 @@ Regions regions_of(const LabelImage& labels) {
     }
   std::vector<Index> name;  // of the provisional regions, in the order of their first pixels
   for (std::size_t k = 0; k < labels.pixels(); ++k) {
-    const Index first = sets.find(regions.of[k]);
+    const Index first = sets.root(regions.of[k]);
     if (first >= static_cast<Index>(name.size())) name.resize(first + 1, -1);
     if (name[first] < 0) {
       name[first] = static_cast<Index>(regions.cell.size());

@@ -49,7 +49,7 @@ LabelImage basins(const std::vector<std::int64_t>& square, int width, int height
     if (square[k] > 0) order.push_back(static_cast<Index>(k));
   std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return square[a] > square[b]; });
   std::vector<Index> basin(square.size(), -1);
-  Sets sets;
+  UnionFind sets;
   std::vector<double> depth;  // of every set: the largest distance in it
   for (const Index k : order) {
     const double here = std::sqrt(static_cast<double>(square[k]));
@@ -72,20 +72,20 @@ LabelImage basins(const std::vector<std::int64_t>& square, int width, int height
     }
     basin[k] = basin[deepest];
     for (std::size_t i = 0; i < count; ++i) {
-      const Index a = sets.find(met[i]);
-      const Index b = sets.find(basin[k]);
+      const Index a = sets.root(met[i]);
+      const Index b = sets.root(basin[k]);
       const double shallower = std::min(depth[a], depth[b]);
       if (a == b || (here < kConstriction * shallower && shallower - here > kSameWidth)) continue;
       const double deeper = std::max(depth[a], depth[b]);
       sets.join(a, b);
-      depth[sets.find(a)] = deeper;
+      depth[sets.root(a)] = deeper;
     }
   }
   LabelImage labels{width, height, std::vector<Index>(square.size(), kBackground), {}};
   std::vector<Index> name(depth.size(), -1);
   for (std::size_t k = 0; k < square.size(); ++k) {
     if (basin[k] < 0) continue;
-    Index& cell = name[sets.find(basin[k])];
+    Index& cell = name[sets.root(basin[k])];
     if (cell < 0) {
       cell = static_cast<Index>(labels.number.size());
       labels.number.push_back(static_cast<std::uint32_t>(cell) + 1);

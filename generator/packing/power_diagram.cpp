@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "generator/packing/spatial_order.h"
+#include "generator/sample/union_find.h"
 
 namespace lamella {
 namespace {
@@ -139,29 +140,22 @@ class Builder {
 
   /// Triangles on one and the same power circle are one vertex, with the number and position of the first of them.
   void merge_cocircular() {
-    std::vector<Index> parent;
-    const auto root = [&](Index i) {
-      while (parent[i] != i) i = parent[i] = parent[parent[i]];
-      return i;
-    };
+    UnionFind merged;
     for (auto face = triangulation_.finite_faces_begin(); face != triangulation_.finite_faces_end(); ++face) {
       for (int i = 0; i < 3; ++i) {
         const Face other = face->neighbor(i);
         if (other->info().index <= face->info().index || !cocircular(face, other)) continue;
-        if (parent.empty()) {
-          parent.resize(diagram_.vertices.size());
-          std::iota(parent.begin(), parent.end(), 0);
-        }
-        const Index a = root(face->info().index), b = root(other->info().index);
-        parent[std::max(a, b)] = std::min(a, b);
+        if (merged.size() == 0) merged = UnionFind(static_cast<Index>(diagram_.vertices.size()));
+        merged.join(face->info().index, other->info().index);
       }
     }
-    if (parent.empty()) return;
-    std::vector<Index> number(parent.size());
+    if (merged.size() == 0) return;
+    std::vector<Index> number(merged.size());
     Index count = 0;
-    for (Index i = 0; i < static_cast<Index>(parent.size()); ++i) {  // a root comes before all that it stands for
-      if (parent[i] == i) diagram_.vertices[count] = diagram_.vertices[i];
-      number[i] = parent[i] == i ? count++ : number[root(i)];
+    for (Index i = 0; i < merged.size(); ++i) {  // a root comes before all that it stands for
+      const Index first = merged.root(i);
+      if (first == i) diagram_.vertices[count] = diagram_.vertices[i];
+      number[i] = first == i ? count++ : number[first];
     }
     diagram_.vertices.resize(count);
     for (auto face = triangulation_.finite_faces_begin(); face != triangulation_.finite_faces_end(); ++face)

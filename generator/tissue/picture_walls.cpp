@@ -1,4 +1,5 @@
 #include "generator/tissue/picture_walls.h"
+#include "generator/sample/union_find.h"
 
 #include <algorithm>
 #include <map>
@@ -89,13 +90,12 @@ class Simplification {
   /// Nodes that welded walls join lie at the middle of those with the most sides of the picture.
   void place_nodes() {
     while (true) {
-      node_.resize(in_.node.size());
-      for (std::size_t n = 0; n < node_.size(); ++n) node_[n] = static_cast<Index>(n);
+      node_ = UnionFind(static_cast<Index>(in_.node.size()));
       for (std::size_t w = 0; w < welded_.size(); ++w)
-        if (welded_[w]) join(in_.walls[w].begin, in_.walls[w].end);
+        if (welded_[w]) node_.join(in_.walls[w].begin, in_.walls[w].end);
       std::map<Index, std::vector<Index>> group;
-      for (std::size_t n = 0; n < node_.size(); ++n)
-        if (const Index top = find(static_cast<Index>(n)); top != static_cast<Index>(n)) group[top].push_back(n);
+      for (Index n = 0; n < node_.size(); ++n)
+        if (const Index top = node_.root(n); top != n) group[top].push_back(n);
       place_ = in_.node;
       std::set<Index> impossible;
       for (auto& [top, members] : group) {
@@ -104,7 +104,7 @@ class Simplification {
       }
       if (impossible.empty()) return;
       for (std::size_t w = 0; w < welded_.size(); ++w)
-        if (impossible.contains(find(in_.walls[w].begin))) welded_[w] = 0;
+        if (impossible.contains(node_.root(in_.walls[w].begin))) welded_[w] = 0;
     }
   }
 
@@ -123,16 +123,6 @@ class Simplification {
     return true;
   }
 
-  Index find(Index n) {
-    while (node_[n] != n) n = node_[n] = node_[node_[n]];
-    return n;
-  }
-  void join(Index a, Index b) {
-    a = find(a);
-    b = find(b);
-    node_[std::max(a, b)] = std::min(a, b);
-  }
-
   void make_edges() {
     vertices_ = place_;
     edges_.clear();
@@ -145,7 +135,7 @@ class Simplification {
 
   void add_edges(Index w) {
     const BoundaryWall& wall = in_.walls[w];
-    const Index begin = find(wall.begin), end = find(wall.end);
+    const Index begin = node_.root(wall.begin), end = node_.root(wall.end);
     auto corner = wall.corner;
     corner.front() = place_[begin];
     corner.back() = place_[end];
@@ -238,9 +228,9 @@ class Simplification {
     }
     if (changed) return;
     std::set<Index> ends;
-    for (const Index w : faulty) ends.insert({find(in_.walls[w].begin), find(in_.walls[w].end)});
+    for (const Index w : faulty) ends.insert({node_.root(in_.walls[w].begin), node_.root(in_.walls[w].end)});
     for (std::size_t w = 0; w < welded_.size(); ++w)
-      if (welded_[w] && ends.contains(find(in_.walls[w].begin))) {
+      if (welded_[w] && ends.contains(node_.root(in_.walls[w].begin))) {
         welded_[w] = 0;
         changed = true;
       }
@@ -261,7 +251,7 @@ class Simplification {
   double asked_;
   std::vector<double> tolerance_;  // per wall [pixels]
   std::vector<char> welded_;       // per wall
-  std::vector<Index> node_;        // joined nodes
+  UnionFind node_;                 // joined nodes
   std::vector<Lattice> place_;     // per node
   std::vector<Lattice> vertices_;
   std::vector<Edge> edges_;

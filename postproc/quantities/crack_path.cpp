@@ -6,10 +6,10 @@
 #include <map>
 #include <queue>
 
+#include "generator/sample/union_find.h"
 #include "postproc/quantities/fragments.h"
 #include "postproc/quantities/link_frame.h"
 #include "postproc/quantities/loop_around.h"
-#include "postproc/quantities/union_find.h"
 
 namespace lamella {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "postproc/quantities/union_find.h"
+#include "generator/sample/union_find.h"
 
 namespace lamella {
 namespace {

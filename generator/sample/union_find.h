@@ -9,8 +9,14 @@ namespace lamella {
 
 class UnionFind {
  public:
-  explicit UnionFind(Index size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0); }
+  explicit UnionFind(Index size = 0) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0); }
 
+  Index size() const { return static_cast<Index>(parent_.size()); }
+  /// One more set, of one member, which it returns.
+  Index add() {
+    parent_.push_back(size());
+    return parent_.back();
+  }
   Index root(Index i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
