@@ -4,8 +4,6 @@
 //   tissue_speed rest SCENE FOLDER [section.key=value ...]
 //   tissue_speed lammps SCENE FOLDER [section.key=value ...]
 #include <fmt/core.h>
-#include <sys/resource.h>
-#include <time.h>
 
 #include <algorithm>
 #include <chrono>
@@ -13,6 +11,7 @@
 
 #include "generator/generate.h"
 #include "generator/sample/errors.h"
+#include "pipelines/performance/timed.h"
 #include "pipelines/performance/tissue_lammps.h"
 #include "simulator/simulate.h"
 #include "simulator/steppers/velocity_verlet.h"
@@ -35,19 +34,6 @@ struct Tissue {
   }
   const Stage& stage() const { return scene.stages.front(); }
 };
-
-/// Processor time of all threads [s]: what the wall clock shows on one thread of an idle machine.
-double processor_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-double peak_megabytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024;
-}
 
 /// Steps as a run does: one in kStepsPerRow is a row, with the energies of all terms and the ledger.
 void time_steps(Tissue& tissue, int steps, int threads) {
