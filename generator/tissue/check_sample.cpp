@@ -58,9 +58,11 @@ void check_cells(const Sample& s, double filled, std::vector<std::string>& all) 
     if (!(area > 0)) bad.add("cell {}: its nodes do not run counter-clockwise (area {})", c, area);
     if (!(std::isfinite(s.rest_area[c]) && s.rest_area[c] > 0)) bad.add("cell {}: rest area {}", c, s.rest_area[c]);
     // A shell inscribed in a convex tile is no larger; in a concave corner, segments may cut across what is not the tile's.
-    const auto angles = s.rest_angle.begin() + begin;
-    const bool convex = std::all_of(angles, angles + s.cell_size(c), [](double angle) { return angle >= 0; });
-    if (!(s.tile_area[c] >= s.rest_area[c] * (1 - 1e-9)) && (convex || !(s.tile_area[c] > 0)))
+    const auto convex = [&] {
+      const auto angles = s.rest_angle.begin() + begin;
+      return std::all_of(angles, angles + s.cell_size(c), [](double angle) { return angle >= 0; });
+    };
+    if (!(s.tile_area[c] >= s.rest_area[c] * (1 - 1e-9)) && (!(s.tile_area[c] > 0) || convex()))
       bad.add("cell {}: its tile {} m2 is smaller than its rest area {} m2", c, s.tile_area[c], s.rest_area[c]);
     // A shape beside a tissue has an area of its own; it takes none of the box.
     Vec2 mean = Vec2::Zero();

@@ -20,6 +20,7 @@
 #include "generator/tissue/lattice.h"
 #include "generator/tissue/missing_links.h"
 #include "generator/tissue/notch.h"
+#include "generator/tissue/packed_tiles.h"
 #include "generator/tissue/polygon_file.h"
 #include "generator/tissue/polygons.h"
 #include "generator/tissue/shapes.h"
@@ -32,19 +33,6 @@ namespace {
 constexpr const char* kGroup = "cells";  // of the cells of a tissue
 
 using Progress = std::function<void(double, const std::string&)>;
-
-Tessellation tessellate(const Packing& packing, const PackingScene& scene, const Periodic& periodic, Notes& notes) {
-  LaguerreOptions options;
-  if (scene.duplicates == "keep_first") options = {Duplicates::kKeepFirst, Hidden::kReport, periodic};
-  options.periodic = periodic;
-  Tessellation tessellation = tessellate(packing.disks, packing.box, options);
-  if (!tessellation.hidden.empty()) {
-    std::vector<std::string> names;
-    for (const Index site : tessellation.hidden) names.push_back(fmt::format("site {}", site));
-    notes.push_back(fmt::format("{} sites have no cell: {}", names.size(), listed(names)));
-  }
-  return tessellation;
-}
 
 /// Inset, links and notch: what tiles, hexagons and imported polygons have in common. `mosaic` goes to the origin.
 Sample make_tissue(Mosaic& mosaic, const Scene& scene, Notes& notes, Origin& origin) {
@@ -79,7 +67,9 @@ Mosaic make_packed_mosaic(const Scene& scene, Notes& notes, const Progress& prog
                                   [&](double done, const std::string& what) {
                                     if (progress) progress(0.7 + 0.1 * done, what);
                                   });
-  Tessellation tessellation = exact ? exact->tessellation : tessellate(packing, scene.sample.packing, periodic, notes);
+  Tessellation tessellation =
+      exact ? exact->tessellation
+            : tessellate_packing(packing.disks, packing.box, laguerre_options(scene.sample.packing, periodic), notes);
   // Cocircular sites leave edges without length, which no wall can be made of: those are welded whatever is asked.
   const double share = std::max(scene.sample.walls.weld, 1e-9);
   origin.welded = weld_short_edges(tessellation, share * mean_edge_length(tessellation), &notes);
@@ -111,7 +101,8 @@ Sample make_packed_rings(const Scene& scene, Notes& notes, const Progress& progr
     for (std::size_t i = 0; i < areas.size(); ++i)
       areas[i] = std::numbers::pi * packing.disks[i].radius * packing.disks[i].radius / packing.fraction;
   } else {
-    const Tessellation tessellation = tessellate(packing, scene.sample.packing, {false, false}, notes);
+    const Tessellation tessellation =
+        tessellate_packing(packing.disks, packing.box, laguerre_options(scene.sample.packing), notes);
     for (const Tile& tile : tessellation.tiles) areas[tile.site] = tile_area(tessellation, tile);
   }
   return make_rings(packing, scene.sample.ring_nodes, scene.stages.front().cell(kGroup).outline_radius(), kGroup,

@@ -13,7 +13,7 @@
 #include "generator/sample/errors.h"
 #include "generator/tissue/cell_areas.h"
 #include "generator/tissue/domain_tissue.h"
-#include "generator/tissue/outlines.h"
+#include "generator/tissue/packed_tiles.h"
 
 namespace lamella {
 namespace {
@@ -27,13 +27,6 @@ Domain asked_domain(const SampleScene& sample) {
   if (!(sample.width > 0 && sample.height > 0))
     throw SceneError("sample.stretch: needs width and height, or a domain: the box does not follow from the disks");
   return make_domain(as_domain({Vec2::Zero(), {sample.width, sample.height}}));
-}
-
-void report_hidden(const Tessellation& tessellation, Notes& notes) {
-  if (tessellation.hidden.empty()) return;
-  std::vector<std::string> names;
-  for (const Index site : tessellation.hidden) names.push_back(fmt::format("site {}", site));
-  notes.push_back(fmt::format("{} sites have no cell: {}", names.size(), listed(names)));
 }
 
 std::vector<double> areas_of(const DomainTissue& tissue) {
@@ -70,8 +63,7 @@ Mosaic make_domain_mosaic(const Scene& scene, Notes& notes, const TissueProgress
   notes.insert(notes.end(), packing.notes.begin(), packing.notes.end());
   vary_disks(packing, asked, domain.box, map, notes);
   if (progress) progress(0.7, "tessellation");
-  LaguerreOptions options;
-  if (asked.packing.duplicates == "keep_first") options = {Duplicates::kKeepFirst, Hidden::kReport};
+  const LaguerreOptions options = laguerre_options(asked.packing);
   Tessellation tiles;
   if (asked.areas) {
     tiles =
@@ -79,8 +71,7 @@ Mosaic make_domain_mosaic(const Scene& scene, Notes& notes, const TissueProgress
           if (progress) progress(0.7 + 0.1 * done, what);
         }).tessellation;
   } else {
-    tiles = tessellate(packing.disks, box_around(squeezed_domain.loops, packing.disks), options);
-    report_hidden(tiles, notes);
+    tiles = tessellate_packing(packing.disks, box_around(squeezed_domain.loops, packing.disks), options, notes);
     const double threshold = std::max(asked.walls.weld, 1e-9) * mean_edge_length(tiles);
     origin.welded = weld_short_edges(tiles, threshold);
     if (origin.welded > 0)
