@@ -124,7 +124,7 @@ Sample make_imported_tissue(const Scene& scene, Notes& notes, Origin& origin) {
 }
 
 Sample make_pictured_tissue(const Scene& scene, Notes& notes, const Progress& progress, Origin& origin) {
-  Mosaic mosaic = make_image_mosaic(scene, notes, [&](double done, const std::string& what) {
+  Mosaic mosaic = make_image_mosaic(scene, notes, origin, [&](double done, const std::string& what) {
     if (progress) progress(0.8 * done, what);
   });
   try {

@@ -61,7 +61,7 @@ void note_fit(const LaguerreFit& fit, const Tessellation& tessellation, const La
 
 }  // namespace
 
-Mosaic make_laguerre_mosaic(LabelImage labels, double pixel, double weld, Notes& notes,
+Mosaic make_laguerre_mosaic(LabelImage labels, double pixel, double weld, Notes& notes, Origin& origin,
                             const std::function<void(double)>& progress) {
   const Index cells = part_background(labels);
   const LaguerreFit fit = fit_laguerre(labels, progress);
@@ -70,7 +70,7 @@ Mosaic make_laguerre_mosaic(LabelImage labels, double pixel, double weld, Notes&
   note_fit(fit, tessellation, labels, cells, notes);
   tessellation.box.hi *= pixel;
   for (Vec2& vertex : tessellation.vertices) vertex *= pixel;
-  weld_short_edges(tessellation, std::max(weld, 1e-9) * mean_edge_length(tessellation), &notes);
+  origin.welded = weld_short_edges(tessellation, std::max(weld, 1e-9) * mean_edge_length(tessellation), &notes);
   Mosaic mosaic = mosaic_of(tessellation);
   std::size_t kept = 0;
   for (std::size_t t = 0; t < tessellation.tiles.size() && tessellation.tiles[t].site < cells; ++t, ++kept)

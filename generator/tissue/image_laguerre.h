@@ -8,8 +8,8 @@
 namespace lamella {
 
 /// Background is tessellated too, in pieces as large as cells, and left out afterwards. Short walls are welded (`weld`: of the
-/// mean wall). Notes say how many pixels lie in the tile of their cell, and which cells have none.
-Mosaic make_laguerre_mosaic(LabelImage labels, double pixel, double weld, Notes& notes,
+/// mean wall), and counted in origin.welded. Notes say how many pixels lie in the tile of their cell, and which cells have none.
+Mosaic make_laguerre_mosaic(LabelImage labels, double pixel, double weld, Notes& notes, Origin& origin,
                             const std::function<void(double)>& progress = {});
 
 /// Share of the pixels whose centre lies in the tile of their cell. The box is the picture in pixels, y upwards; sites from

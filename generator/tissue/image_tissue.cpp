@@ -186,7 +186,7 @@ bool has_narrow_cells(const Mosaic& mosaic, const Scene& scene) {
   });
 }
 
-Mosaic make_image_mosaic(const Scene& scene, Notes& notes, const ImageProgress& progress) {
+Mosaic make_image_mosaic(const Scene& scene, Notes& notes, Origin& origin, const ImageProgress& progress) {
   const ImageScene& image = *scene.sample.image;
   const auto tell = [&](double done, const char* what) {
     if (progress) progress(done, what);
@@ -206,13 +206,14 @@ Mosaic make_image_mosaic(const Scene& scene, Notes& notes, const ImageProgress& 
   notes.push_back(fmt::format("{} x {} pixels: {} cells", labels.width, labels.height, labels.number.size()));
   Mosaic mosaic;
   if (image.cells == "laguerre") {
-    mosaic = make_laguerre_mosaic(labels, image.pixel, scene.sample.walls.weld, notes,
+    mosaic = make_laguerre_mosaic(labels, image.pixel, scene.sample.walls.weld, notes, origin,
                                   [&](double done) { tell(0.6 + 0.4 * done, "Laguerre tessellation"); });
     finish(mosaic, image.pixel);
     return mosaic;
   }
   tell(0.7, "boundaries");
   const SimplifiedWalls walls = simplify_walls(trace_boundaries(labels), image.simplify, scene.sample.walls.weld);
+  origin.welded = walls.welded;
   if (walls.welded > 0) notes.push_back(fmt::format("{} short walls are welded to a point", walls.welded));
   if (walls.refined > 0)
     notes.push_back(fmt::format("{} walls keep more of their pixels than simplify asks, so that cells do not overlap",

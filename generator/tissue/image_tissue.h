@@ -10,9 +10,9 @@ using ImageProgress = std::function<void(double done, const std::string& what)>;
 
 /// The mosaic of sample.image. The box is the picture, from the origin, `pixel` metres for a pixel: column 0 is on the left
 /// and row 0 at the top, so y = (height - row) pixel. Walls on the sides of the picture carry their bits; a side that no
-/// cell touches goes to the free walls that look at it, as for any rough tissue. Short walls are welded as walls.weld says.
-/// Throws DataError (the file) or SceneError (no cells, cells that are none).
-Mosaic make_image_mosaic(const Scene& scene, Notes& notes, const ImageProgress& progress = {});
+/// cell touches goes to the free walls that look at it, as for any rough tissue. Short walls are welded as walls.weld says, and counted in
+/// origin.welded. Throws DataError (the file) or SceneError (no cells, cells that are none).
+Mosaic make_image_mosaic(const Scene& scene, Notes& notes, Origin& origin, const ImageProgress& progress = {});
 
 /// Whether a cell is narrower somewhere than twice its wall's outline and half the gap, so that it has no inset.
 bool has_narrow_cells(const Mosaic& mosaic, const Scene& scene);

@@ -139,7 +139,8 @@ void make_mosaic(benchmark::State& state, const Picture& picture, const char* ki
   scene.stages.emplace_back();
   for (auto _ : state) {
     Notes notes;
-    benchmark::DoNotOptimize(make_image_mosaic(scene, notes));
+    Origin origin;
+    benchmark::DoNotOptimize(make_image_mosaic(scene, notes, origin));
   }
 }
 

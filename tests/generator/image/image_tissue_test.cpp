@@ -163,6 +163,18 @@ TEST_F(ImageTissue, as_a_laguerre_tessellation_is_convex_and_close) {
     for (Index k = sample.cell_begin[c]; k < sample.cell_begin[c + 1]; ++k) EXPECT_GE(sample.rest_angle[k], -1e-9);
 }
 
+TEST_F(ImageTissue, says_how_many_walls_were_welded_however_its_cells_are_made) {
+  for (const char* cells : {"outlines", "laguerre"}) {
+    const std::string keys = fmt::format("image.least_area = 60\nimage.cells = \"{}\"\nwalls.weld = 0.3", cells);
+    Origin origin;
+    notes.clear();
+    generate(scene_of(tissue_picture(), keys, 1e-6), notes, {}, &origin);
+    EXPECT_GT(origin.welded, 0) << cells;
+    EXPECT_THAT(notes, Contains(::testing::AllOf(HasSubstr("welded to a point"),
+                                                 HasSubstr(fmt::format("{} ", origin.welded)))));
+  }
+}
+
 TEST_F(ImageTissue, as_a_laguerre_tessellation_is_welded_in_metres) {
   sample_of(tissue_picture(), "image.least_area = 60\nimage.cells = \"laguerre\"\nwalls.weld = 0.3");
   EXPECT_THAT(notes, Contains(::testing::ContainsRegex("edges of at most [0-9.]+e-06 m welded")));
