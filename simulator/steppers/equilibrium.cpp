@@ -20,7 +20,7 @@ constexpr std::array<int, 3> kRushes = {25, 100, 250};
 constexpr int kRushIterations = 25;
 // There: iterations of conjugate gradients at most, and what they may leave.
 constexpr int kGradients = 60;
-constexpr double kSolved = 1e-10;
+constexpr double kSolved = 1e-5;
 // Over the largest diagonal. Loose fragments make the stiffness singular; this keeps it regular, and moves nothing: the forces say when
 // equilibrium is reached.
 constexpr double kLeastShift = 1e-12, kMostLeastShift = 1e-7, kMostShift = 1;
