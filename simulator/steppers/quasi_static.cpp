@@ -190,15 +190,20 @@ bool QuasiStatic::try_at(double time, Field& x) {
   return solver_.relax(x, settings_.residual);
 }
 
-/// Motion of the free components to first order, from the force that a small part of this increment of time leaves.
+/// Motion of the free components to first order, from the force that a small part of this increment of time adds. What the last search has
+/// left is no part of it: in proportion to so small a motion it would be large.
 Eigen::VectorXd QuasiStatic::first_motion(double increment) {
   double farthest = 0;
   for (const Load& load : loads_)
     farthest = std::max(farthest, (path_.way(load, time_ + increment) - path_.way(load, time_)).norm());
   const double probe = std::min(1.0, farthest > 0 ? kProbe * solver_.mean_segment() / farthest : 1e-3);
   Field moved = x_;
+  Eigen::VectorXd left;
+  prescribe(time_, moved);
+  solver_.evaluate(moved, left);
   prescribe(time_ + probe * increment, moved);
   solver_.evaluate(moved, work_);
+  work_ -= left;
   return solver_.response(x_, work_) / probe;
 }
 
