@@ -88,13 +88,17 @@ void time_at_rest(const Tissue& tissue, const std::filesystem::path& folder) {
   const double seconds = processor_seconds() - start;
   const TrajectoryReader reader(path);
   const Response& response = reader.response();
-  const auto stress = std::find(response.columns.begin(), response.columns.end(), "stress") - response.columns.begin();
+  const auto column = [&](const char* name) {
+    return static_cast<std::size_t>(std::find(response.columns.begin(), response.columns.end(), name) -
+                                    response.columns.begin());
+  };
   double peak = 0;
-  for (const auto& row : response.rows) peak = std::max(peak, row.at(static_cast<std::size_t>(stress)));
+  for (const auto& row : response.rows) peak = std::max(peak, row.at(column("stress")));
   const SolverCost& cost = facts.static_cost;
   fmt::print("cells {}\nnodes {}\nlinks {}\n", tissue.sample.cells(), tissue.sample.nodes(),
              tissue.sample.links.size());
-  fmt::print("breaks {}\npeak_stress {:.9g}\nprocessor_seconds {:.6g}\n", reader.events().size(), peak, seconds);
+  fmt::print("breaks {}\npeak_stress {:.9g}\nwork {:.9g}\nprocessor_seconds {:.6g}\n", reader.events().size(), peak,
+             response.rows.back().at(column("work")), seconds);
   fmt::print("equilibria {}\niterations {}\nfactorisations {}\npeak_megabytes {:.1f}\n", cost.searches, cost.iterations,
              cost.factorizations, peak_megabytes());
   fmt::print("ended {}\n", facts.ended);
