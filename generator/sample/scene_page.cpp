@@ -123,7 +123,7 @@ std::vector<Section> sections() {
 
 /// "|" would end the cell of a table.
 std::string in_table(std::string text) {
-  for (std::size_t k = 0; (k = text.find('|', k)) != std::string::npos; k += 2) text.insert(k, "\\");
+  for (std::size_t k = 0; (k = text.find('|', k)) != std::string::npos; k += 2) text.insert(k, 1, '\\');
   return text;
 }
 
