@@ -27,6 +27,8 @@ constexpr double kLeastShift = 1e-12, kMostLeastShift = 1e-7, kMostShift = 1;
 constexpr double kLost = 50;  // way of a loose piece in one iteration, in mean segments
 // Over stiffness times extent: positions are rounded, and with them forces.
 constexpr double kRounding = 64 * 2.2e-16;
+// Of the potential and of a force times a mean segment: by less than this it may rise, as it is rounded.
+constexpr double kNoise = 1e-11;
 // No node goes further in one iteration, in mean segments.
 constexpr double kFarthest = 0.5;
 
@@ -47,6 +49,7 @@ EquilibriumSolver::EquilibriumSolver(Model& model, const std::vector<Load>& load
   for (double l : model.sample.rest_length)
     if (l > 0) length_ += l, ++count;
   length_ /= std::max<Index>(1, count);
+  barriers_ = model.links && model.links->softens();
 }
 
 void EquilibriumSolver::forget() {
@@ -102,6 +105,14 @@ void EquilibriumSolver::evaluate_all(const Field& x, Eigen::VectorXd& free) {
     f_.add(i, pull);
   }
   free = free_.gathered(f_);
+}
+
+double EquilibriumSolver::potential(const Field& x) const {
+  double sum = model_.energy(x);
+  for (std::size_t i = 0; i < x.size(); ++i) sum -= dead_.at(i).dot(x.at(i));
+  for (std::size_t i = 0; i < anchor_stiffness_.size(); ++i)
+    sum += 0.5 * anchor_stiffness_[i] * (x.at(i) - anchor_.at(i)).squaredNorm();
+  return sum;
 }
 
 double EquilibriumSolver::measure(const Eigen::VectorXd& f) {
@@ -224,13 +235,16 @@ bool EquilibriumSolver::relax(Field& x, double tolerance) {
   Eigen::VectorXd f, next;
   evaluate_all(x, f);
   double first = measure(f), before = first;
+  // Where links soften, a step may end beyond a barrier although the slope along it is small there.
+  double height = barriers_ ? potential(x) : 0.0, height_there = 0;
+  const auto noise = [&] { return kNoise * (std::abs(height) + scale_ * length_); };
   int since_factor = 0;
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
     if (!std::isfinite(residual_)) break;
     if (residual_ <= tolerance) return true;
     if (std::find(kRushes.begin(), kRushes.end(), iteration) != kRushes.end()) {
       Field rushed = x;
-      if (rush(rushed, tolerance)) {
+      if (rush(rushed, tolerance) && (!barriers_ || potential(rushed) <= height + noise())) {
         x = std::move(rushed);
         return true;
       }
@@ -264,8 +278,11 @@ bool EquilibriumSolver::relax(Field& x, double tolerance) {
       evaluate_all(there, next);
       const double slope_there = step.dot(next);
       if (std::isfinite(slope_there) && slope_there >= -0.7 * slope) {
-        found = true;
-        break;
+        if (barriers_) height_there = potential(there);
+        found = !barriers_ || height_there <= height + noise();
+        if (found) break;
+        alpha *= 0.3;
+        continue;
       }
       const double secant = std::isfinite(slope_there) ? slope / (slope - slope_there) : 0.1;
       alpha *= std::clamp(secant, 0.1, 0.7);
@@ -288,6 +305,7 @@ bool EquilibriumSolver::relax(Field& x, double tolerance) {
     }
     std::swap(x, there);
     std::swap(f, next);
+    height = height_there;
     before = residual_;
     measure(f);
     ++since_factor;

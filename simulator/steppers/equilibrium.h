@@ -41,6 +41,8 @@ class EquilibriumSolver {
   const Eigen::VectorXd& response(const Field& x, const Eigen::VectorXd& f);
   /// All forces at x, but for those of anchors; `free` receives those on free components.
   void evaluate(const Field& x, Eigen::VectorXd& free);
+  /// What a search minimises [J].
+  double potential(const Field& x) const;
   const FreeComponents& free() const { return free_; }
   /// Of all walls [m].
   double mean_segment() const { return length_; }
@@ -77,6 +79,8 @@ class EquilibriumSolver {
   double largest_dead_ = 0;  // its square [N^2]
   std::vector<double> anchor_stiffness_;
   bool analyzed_ = false, factored_ = false;
+  bool barriers_ =
+      false;  // links soften: there is more than one minimum, and a search goes to none that lies higher than its start
   Field reached_;
   Field factor_x_;  // where the factor was made
   std::vector<double> factored_values_;
