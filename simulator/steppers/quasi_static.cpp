@@ -102,6 +102,8 @@ void QuasiStatic::bring_to_rest() {
       if (softens_ && fall_to_rest(time_, x_)) return;
       return give_up("no equilibrium after a break at this load", time_);
     }
+    double turnover = 0;
+    works_.released += surplus_at(time_, x, turnover);
     accept(time_, std::move(x));
     commit();
   }
@@ -191,6 +193,8 @@ Eigen::VectorXd QuasiStatic::first_motion(double increment) {
 
 void QuasiStatic::load_towards(double end, const std::function<bool()>& go_on) {
   const double target = end - time_ < 1.001 * settings_.longest ? end : time_ + settings_.longest;
+  const double began = time_;
+  if (following_ && follow_branch(end)) return;
   int searches = 0;
   while (time_ < target && !critical_ && over_.empty() && go_on()) {
     // Where searches have failed, the next one goes no further than twice the last that did not.
@@ -230,7 +234,12 @@ void QuasiStatic::load_towards(double end, const std::function<bool()>& go_on) {
       step *= share;
       there = wild ? x_ : lower_start(time_ + step, predicted(step));
     }
-    const double shortest_leap = kFall * settings_.longest;
+    const double shortest_leap = kFall * settings_.longest, shortest_onset = 1e-2 * shortest_leap;
+    // Here the branch ends: the way on is along it, with less load, or down, once it has been told where it ended.
+    const auto leave_branch = [&](double time, Field fallen) {
+      if (settings_.follow && follow_branch(end)) return;
+      if (time_ == began) fall_or_give_up(time, std::move(fallen));
+    };
     const auto shorten = [&](double by) {
       step *= by, trusted_ = step, high = 0;
       there = wild ? x_ : lower_start(time_ + step, predicted(step));
@@ -239,11 +248,7 @@ void QuasiStatic::load_towards(double end, const std::function<bool()>& go_on) {
       if (++searches > kMostSearches)
         return give_up("no equilibrium under a little more load, in many small steps", time_ + step);
       if (!try_at(time_ + step, there)) {
-        if (softens_ && step <= shortest_leap) {
-          if (!fall_to_rest(time_ + step, x_)) give_up("no equilibrium under a little more load", time_ + step);
-          critical_ = criterion(x_) >= -settings_.load_tolerance;
-          break;
-        }
+        if (softens_ && step <= shortest_leap) return leave_branch(time_ + step, x_);
         shorten(0.3);
         if (tries > kMostTries || step < kShortest * h)
           return give_up("no equilibrium under a little more load", time_ + step);
@@ -252,18 +257,19 @@ void QuasiStatic::load_towards(double end, const std::function<bool()>& go_on) {
       const double z = criterion(there);
       const bool at_last = high > 0 && high - low < kShortest * h;
       if (z <= settings_.load_tolerance || at_last || tries > kMostTries) {
-        const bool leap = leaps(time_ + step, there);
-        if (leap && step > shortest_leap && tries <= kMostTries) {
+        if (step > shortest_onset && tries <= kMostTries && begins_too_far(there)) {
+          shorten(0.5);
+          continue;
+        }
+        if (leaps(time_ + step, there)) {
+          if (step <= shortest_leap || tries > kMostTries) return leave_branch(time_ + step, std::move(there));
           shorten(0.4);
           continue;
         }
-        if (leap) {
-          if (!fall_to_rest(time_ + step, there)) give_up("no equilibrium under a little more load", time_ + step);
-        } else {
-          accept(step == h && h == target - time_ ? target : time_ + step, std::move(there));
-          trusted_ = std::max(trusted_, 2 * step);
-          bring_to_rest();
-        }
+        remember();
+        accept(step == h && h == target - time_ ? target : time_ + step, std::move(there));
+        trusted_ = std::max(trusted_, 2 * step);
+        bring_to_rest();
         critical_ = z >= -settings_.load_tolerance;
         break;
       }
@@ -365,6 +371,7 @@ void QuasiStatic::break_link(Index link, std::int64_t place) {
 
 void QuasiStatic::fall(const std::function<bool()>& go_on) {
   std::int64_t place = 0;
+  behind_ = {};
   potential_ = potential(x_);
   while (critical_ && go_on()) {
     const std::size_t first = breaks_.size();
@@ -428,6 +435,7 @@ void QuasiStatic::save(ArraySet& restart) const {
   std::vector<double> origin;
   for (const Held& h : held_) origin.push_back(h.origin);
   restart.add({"static_origin", "m", "model", 1, std::move(origin)});
+  if (behind_.x.size() > 0) save_behind(restart);
 }
 
 void QuasiStatic::restore(const ArraySet& restart) {
@@ -442,6 +450,7 @@ void QuasiStatic::restore(const ArraySet& restart) {
   works_ = {driver.at(1), driver.at(2), driver.at(3), driver.at(4)};
   avalanches_ = static_cast<std::int64_t>(driver.at(5));
   critical_ = driver.at(6) != 0;
+  restore_behind(restart);
 }
 
 }  // namespace lamella

@@ -97,6 +97,15 @@ class QuasiStatic {
   Field lower_start(double time, Field predicted);
   bool fall_to_rest(double time, Field x);
   bool leaps(double time, const Field& x);
+  bool begins_too_far(const Field& x);
+  std::vector<double> damage_fronts() const;
+  void remember();
+  Eigen::VectorXd control() const;
+  bool meet(const Eigen::VectorXd& c, double length, Field& x, double& time);
+  bool follow_branch(double end);
+  void save_behind(ArraySet& restart) const;
+  void restore_behind(const ArraySet& restart);
+  void fall_or_give_up(double time, Field x);
   void accept(double time, Field x);
   Field pushes(double time) const;
   double potential(const Field& x) const;
@@ -130,7 +139,16 @@ class QuasiStatic {
   std::string over_;
   double largest_turnover_ = 0;  // of one increment [J]
   std::int64_t falls_ = 0;
-  bool softens_ = false;  // links lose their hold little by little, in `commit`
+  // Where the load follows a branch: before the last increment.
+  struct Behind {
+    Field x;
+    double time = 0;            // [s]
+    std::vector<double> front;  // s_max of each link, as it was committed there [J^1/2]
+    double length = 0;          // of the next increment along the branch; 0: as long as the last
+  };
+  Behind behind_;
+  bool following_ = false;  // the present configuration lies on a branch that no search would find
+  bool softens_ = false;    // links lose their hold little by little, in `commit`
   bool critical_ = false;
   std::int64_t avalanches_ = 0;
   std::vector<BreakAtRest> breaks_;

@@ -9,9 +9,11 @@
 namespace lamella {
 namespace {
 
-constexpr int kMostLegs = 50;  // of one fall
-// Work that may differ from the energy gained: over that of the increment, and over that of the largest increment so far.
-constexpr double kUnexplained = 0.02, kUnseen = 1e-3;
+constexpr int kMostLegs = 50;   // of one fall
+constexpr double kOnset = 0.1;  // zeta
+// Work that may differ from the energy gained, over that of the increment: where links soften, and where nothing does; and over that of the
+// largest increment so far.
+constexpr double kUnexplained = 4e-3, kUnexplainedStiff = 0.2, kUnseen = 1e-3;
 
 }  // namespace
 
@@ -57,6 +59,7 @@ Field QuasiStatic::lower_start(double time, Field predicted) {
 /// whether there is rest.
 bool QuasiStatic::fall_to_rest(double time, Field x) {
   ++falls_;
+  behind_ = {};
   const std::size_t first = breaks_.size();
   const double before = works_.released;
   const auto arrive = [&](Field at) {
@@ -88,8 +91,28 @@ bool QuasiStatic::leaps(double time, const Field& x) {
   double turnover = 0;
   const double surplus = surplus_at(time, x, turnover);
   largest_turnover_ = std::max(largest_turnover_, turnover);
-  const double rounding = settings_.residual * solver_.internal_force() * solver_.mean_segment();
-  return std::abs(surplus) > kUnexplained * turnover + kUnseen * largest_turnover_ + rounding;
+  double farthest = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) farthest = std::max(farthest, (x.at(i) - x_.at(i)).norm());
+  const double unbalanced = settings_.residual * solver_.internal_force() * farthest;
+  return std::abs(surplus) >
+         (softens_ ? kUnexplained : kUnexplainedStiff) * turnover + kUnseen * largest_turnover_ + unbalanced;
+}
+
+/// Whether damage begins in a link only far beyond its criterion: there its mode mix, which stays, would be that of a later moment.
+bool QuasiStatic::begins_too_far(const Field& x) {
+  if (!softens_) return false;
+  ArraySet there, history;
+  model_.links->add_output(x, there), model_.links->save(history);
+  const auto& zeta = there.doubles("link_zeta");
+  const auto& onset = history.doubles("link_damage_onset");
+  for (std::size_t l = 0; l < zeta.size(); ++l)
+    if (model_.links->intact(static_cast<Index>(l)) && onset[l] == 0 && zeta[l] > kOnset) return true;
+  return false;
+}
+
+void QuasiStatic::fall_or_give_up(double time, Field x) {
+  if (!fall_to_rest(time, std::move(x))) return give_up("no equilibrium under a little more load", time);
+  critical_ = criterion(x_) >= -settings_.load_tolerance;
 }
 
 }  // namespace lamella
