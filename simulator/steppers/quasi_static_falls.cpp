@@ -44,7 +44,12 @@ QuasiStatic::StepWork QuasiStatic::work_to(double time, const Field& x) const {
 double QuasiStatic::surplus_at(double time, const Field& x, double& turnover) const {
   const StepWork work = work_to(time, x);
   turnover = work.turnover;
-  return work.loads + work.pressure - (model_.energy(x) - model_.energy(x_));
+  double gained = model_.energy(x) - model_.energy(x_);  // both under the pressures of that time
+  for (std::size_t k = 0; k < lever_.size(); ++k) {
+    const PressureHistory& history = model_.pressure_histories[k];
+    gained += lever_[k] * (history.at(time) - history.at(time_));
+  }
+  return work.loads + work.pressure - gained;
 }
 
 /// Where a search starts: at the first-order prediction, unless that lies higher than to stay does.
