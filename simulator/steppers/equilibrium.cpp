@@ -29,6 +29,9 @@ constexpr double kLost = 50;  // way of a loose piece in one iteration, in mean 
 constexpr double kRounding = 64 * 2.2e-16;
 // Of the potential and of a force times a mean segment: by less than this it may rise, as it is rounded.
 constexpr double kNoise = 1e-11;
+// A rest whose stiffness takes a larger shift, over the largest diagonal, is no minimum; how often, and how far [mean segments], it is left.
+constexpr double kFlat = 1e-9, kLeaveSaddle = 1e-3;
+constexpr int kMostSaddles = 20, kInverseIterations = 10;
 // No node goes further in one iteration, in mean segments.
 constexpr double kFarthest = 0.5;
 
@@ -226,6 +229,32 @@ bool EquilibriumSolver::rush(Field& x, double tolerance) {
   return false;
 }
 
+// Whole rows of links that soften may be at rest together where one alone would rather go on: such rest is no minimum. Inverse iteration finds
+// the direction of negative curvature.
+bool EquilibriumSolver::leave_saddle(Field& x, double height) {
+  if (free_.size() == 0) return false;
+  shift_ = 0;
+  refactor(x);
+  if (!factored_ || shift_ <= kFlat) return false;
+  Eigen::VectorXd v(free_.size());
+  for (Eigen::Index i = 0; i < v.size(); ++i) v[i] = std::sin(1.0 + 0.7 * static_cast<double>(i * i % 1009));
+  for (int k = 0; k < kInverseIterations; ++k) {
+    v = factor_.solve(v);
+    v /= v.cwiseAbs().maxCoeff();
+    ++cost_.solves;
+  }
+  for (double way = kLeaveSaddle * length_; way > 1e-6 * kLeaveSaddle * length_; way *= 0.1)
+    for (const double sign : {1.0, -1.0}) {
+      Field there = x;
+      free_.add(v, sign * way, there);
+      if (potential(there) < height - kNoise * (std::abs(height) + scale_ * length_)) {
+        x = std::move(there);
+        return true;
+      }
+    }
+  return false;
+}
+
 bool EquilibriumSolver::relax(Field& x, double tolerance) {
   ++cost_.searches;
   pairs_.clear();
@@ -238,10 +267,15 @@ bool EquilibriumSolver::relax(Field& x, double tolerance) {
   // Where links soften, a step may end beyond a barrier although the slope along it is small there.
   double height = barriers_ ? potential(x) : 0.0, height_there = 0;
   const auto noise = [&] { return kNoise * (std::abs(height) + scale_ * length_); };
-  int since_factor = 0;
+  int since_factor = 0, saddles = 0;
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
     if (!std::isfinite(residual_)) break;
-    if (residual_ <= tolerance) return true;
+    if (residual_ <= tolerance) {
+      if (!barriers_ || ++saddles > kMostSaddles || !leave_saddle(x, height)) return true;
+      evaluate_all(x, f), measure(f);
+      height = potential(x);
+      since_factor = 0, first = before = residual_;
+    }
     if (std::find(kRushes.begin(), kRushes.end(), iteration) != kRushes.end()) {
       Field rushed = x;
       if (rush(rushed, tolerance) && (!barriers_ || potential(rushed) <= height + noise())) {

@@ -70,6 +70,7 @@ class EquilibriumSolver {
   void evaluate_all(const Field& x, Eigen::VectorXd& free);
   void refactor(const Field& x);
   bool rush(Field& x, double tolerance);
+  bool leave_saddle(Field& x, double height);
   Eigen::VectorXd tangent_solution(const Eigen::VectorXd& f);
   double allowed_share(const Field& x, const Eigen::VectorXd& step);
   Eigen::VectorXd direction(const Eigen::VectorXd& f);

@@ -134,7 +134,7 @@ struct SofteningTissue {
     stage.links["links"] = softening("length", 2000.0, 600.0, 1.0, 0.0256);
   }
   std::vector<Load> loads(double way) const {
-    return {moving_cells(sample, {0, 1, 2}, Vec2(0, 0)), moving_cells(sample, {9, 10, 11}, Vec2(0.3 * way, way))};
+    return {moving_cells(sample, {0, 1, 2}, Vec2(0, 0)), moving_cells(sample, {9}, Vec2(0.3 * way, way))};
   }
   Sample sample;
   Stage stage;
