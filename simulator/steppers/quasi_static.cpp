@@ -431,7 +431,8 @@ Field QuasiStatic::load_force_on_nodes() const {
 void QuasiStatic::save(ArraySet& restart) const {
   restart.add({"static_driver", "1", "model", 1,
                std::vector<double>{time_, works_.loads, works_.pressure, works_.fracture, works_.released,
-                                   static_cast<double>(avalanches_), critical_ ? 1.0 : 0.0}});
+                                   static_cast<double>(avalanches_), critical_ ? 1.0 : 0.0, largest_turnover_,
+                                   static_cast<double>(falls_)}});
   std::vector<double> origin;
   for (const Held& h : held_) origin.push_back(h.origin);
   restart.add({"static_origin", "m", "model", 1, std::move(origin)});
@@ -450,6 +451,7 @@ void QuasiStatic::restore(const ArraySet& restart) {
   works_ = {driver.at(1), driver.at(2), driver.at(3), driver.at(4)};
   avalanches_ = static_cast<std::int64_t>(driver.at(5));
   critical_ = driver.at(6) != 0;
+  largest_turnover_ = driver.at(7), falls_ = static_cast<std::int64_t>(driver.at(8));
   restore_behind(restart);
 }
 
