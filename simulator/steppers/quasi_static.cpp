@@ -248,7 +248,7 @@ void QuasiStatic::load_towards(double end, const std::function<bool()>& go_on) {
       if (++searches > kMostSearches)
         return give_up("no equilibrium under a little more load, in many small steps", time_ + step);
       if (!try_at(time_ + step, there)) {
-        if (softens_ && step <= shortest_leap) return leave_branch(time_ + step, x_);
+        if ((softens_ || settings_.follow) && step <= shortest_leap) return leave_branch(time_ + step, x_);
         shorten(0.3);
         if (tries > kMostTries || step < kShortest * h)
           return give_up("no equilibrium under a little more load", time_ + step);

@@ -102,6 +102,7 @@ class QuasiStatic {
   void remember();
   Eigen::VectorXd control() const;
   bool meet(const Eigen::VectorXd& c, double length, Field& x, double& time);
+  bool softens_at(const Field& x);
   bool follow_branch(double end);
   void save_behind(ArraySet& restart) const;
   void restore_behind(const ArraySet& restart);

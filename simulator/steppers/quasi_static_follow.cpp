@@ -77,6 +77,13 @@ bool QuasiStatic::meet(const Eigen::VectorXd& c, double length, Field& x, double
   return false;
 }
 
+/// Whether damage grows on the way to x.
+bool QuasiStatic::softens_at(const Field& x) {
+  const CohesiveLinks& links = *model_.links;
+  return links.evaluate(x, links.begin(0), links.end(static_cast<Index>(model_.layout.blocks().size()) - 1),
+                        link_work_);
+}
+
 /// One increment along the branch. Returns false where it cannot be followed any more.
 bool QuasiStatic::follow_branch(double end) {
   following_ = false;
@@ -92,6 +99,7 @@ bool QuasiStatic::follow_branch(double end) {
     free.add(way, length / last, x);
     if (!meet(c, length, x, time)) continue;
     if (time < 0 || time > end || std::abs(time - time_) > settings_.longest) continue;
+    if (softens_ && time < time_ && !softens_at(x)) continue;  // the way back that nothing breaks on
     if (criterion(x) > settings_.load_tolerance || begins_too_far(x) || leaps(time, x)) continue;
     remember();
     behind_.length = tries == 0 ? 2 * length : length;

@@ -139,6 +139,60 @@ struct SofteningTissue {
   Stage stage;
 };
 
+TEST(SofteningAtRest, the_area_under_a_followed_curve_is_what_fracture_took) {
+  const SofteningTissue tissue;
+  SofteningRig rig(tissue.sample, tissue.stage, tissue.loads(0.15), {.follow = true, .longest = 0.02});
+  double farthest = 0, back = 0, toughness = 0;
+  while (rig.stepper->time() < 1) {
+    rig.stepper->load_towards(1, [] { return true; });
+    farthest = std::max(farthest, rig.stepper->time());
+    back = std::max(back, farthest - rig.stepper->time());
+  }
+  EXPECT_GT(back, 0.2);
+  const auto breaks = rig.stepper->take_breaks();
+  for (const BreakAtRest& b : breaks) toughness += 0.0256 * tissue.sample.links[b.link.link].length;
+  EXPECT_GT(breaks.size(), 10u);
+  const StaticWorks w = rig.stepper->works();
+  EXPECT_GT(w.fracture, toughness);                     // others are damaged
+  EXPECT_NEAR(w.loads, w.fracture, 3e-2 * w.fracture);  // a fifth more where the sample falls
+  EXPECT_LT(rig.open(), 1e-3);
+}
+
+TEST(SofteningAtRest, an_arch_behind_a_spring_is_followed_through_its_snap_back) {
+  // Half a shallow arch: a bar from a pin to an apex that slides, F = k (l_0 - l) (h - w) / l at the deflection w; a long bar above the
+  // apex is the spring through which the way u = w + F / k_s is prescribed.
+  const double height = 0.2, rigidity = 1, spring = 200.0 / 3, rest = std::hypot(1, height);
+  Sample arch;
+  add_cell(arch, {{0, 0}, {1, height}, {1, height + spring}}, false, 0.05, "cells");
+  arch.box = {{0, -1}, {2, 70}};
+  Stage stage;
+  stage.cells["cells"] = cell_scene(rigidity, 1e-9, 1.0);
+  Load pin, apex, top;
+  pin.nodes = {0}, pin.holds[0] = pin.holds[1] = true;
+  apex.nodes = {1}, apex.holds[0] = true;
+  top.nodes = {2}, top.holds[0] = top.holds[1] = true, top.velocity = {0, -0.8};
+  for (const bool follow : {true, false}) {
+    SofteningRig rig(arch, stage, {pin, apex, top}, {.residual = 1e-6, .follow = follow, .longest = 0.02});
+    int past = 0;
+    bool back = false;
+    double last = 0;
+    for (int k = 0; rig.stepper->time() < 1 && k < 2000; ++k) {
+      rig.stepper->load_towards(1, [] { return true; });
+      const double w = height - rig.stepper->x().y[1], length = std::hypot(1, height - w);
+      const double force = rigidity / rest * (rest - length) * (height - w) / length;
+      EXPECT_NEAR(0.8 * rig.stepper->time(), w + force * spring / rigidity, 1e-5);
+      if (w > 0.7 * height && w < 1.3 * height) ++past;
+      back |= rig.stepper->time() < last;
+      last = rig.stepper->time();
+    }
+    EXPECT_EQ(rig.stepper->time(), 1);
+    EXPECT_EQ(past > 3, follow);
+    EXPECT_EQ(back, follow);
+    EXPECT_EQ(rig.stepper->falls(), follow ? 0 : 1);
+    EXPECT_LT(rig.open(), 1e-2);
+  }
+}
+
 TEST(SofteningAtRest, strength_and_ledger_do_not_hang_on_residual_or_load_step) {
   const SofteningTissue tissue;
   std::vector<double> peaks;
