@@ -146,6 +146,9 @@ class QuasiStatic {
     double time = 0;            // [s]
     std::vector<double> front;  // s_max of each link, as it was committed there [J^1/2]
     double length = 0;          // of the next increment along the branch; 0: as long as the last
+    // What damage and breaks had taken where a branch was last begun to be followed [J].
+    double spent_at_start = -1e300;
+    int fruitless = 0;  // how often one was begun to be followed since, with next to no more damage
   };
   Behind behind_;
   bool following_ = false;  // the present configuration lies on a branch that no search would find

@@ -9,10 +9,11 @@
 namespace lamella {
 namespace {
 
-constexpr int kMostNewton = 15;
+constexpr int kMostNewton = 15, kMostFruitless = 10;
 constexpr int kMostShortenings = 14;
-constexpr double kLongestNewton = 0.5;    // way of a node in one iteration, in mean segments
-constexpr double kAhead = 0.05;           // over the last increment: there the next one is asked whether it is stable
+constexpr double kLongestNewton = 0.5;  // way of a node in one iteration, in mean segments
+constexpr double kAhead = 0.05;         // over the last increment: there the next one is asked whether it is stable
+constexpr double kUnspent = 1e-3;       // of the largest turnover of an increment: by less damage no branch has led on
 constexpr double kPrescribedLeft = 1e-6;  // of what is prescribed
 
 }  // namespace
@@ -27,7 +28,7 @@ std::vector<double> QuasiStatic::damage_fronts() const {
 /// Keeps what the next increment needs to know of the one that is about to be accepted; `commit` comes in between.
 void QuasiStatic::remember() {
   if (!settings_.follow) return;
-  behind_ = {x_, time_, damage_fronts(), 0};
+  behind_ = {x_, time_, damage_fronts(), 0, behind_.spent_at_start, behind_.fruitless};
 }
 
 /// c: what grows along the last increment is c . (x - x_).
@@ -86,8 +87,17 @@ bool QuasiStatic::softens_at(const Field& x) {
 
 /// One increment along the branch. Returns false where it cannot be followed any more.
 bool QuasiStatic::follow_branch(double end) {
+  const bool starts = !following_;
   following_ = false;
   if (behind_.x.size() != x_.size()) return false;
+  if (starts && softens_) {
+    // A branch that has led back to itself would do so for ever.
+    const double spent = works().fracture;
+    if (spent - behind_.spent_at_start > kUnspent * largest_turnover_)
+      behind_.spent_at_start = spent, behind_.fruitless = 0;
+    else if (++behind_.fruitless > kMostFruitless)
+      return false;
+  }
   const FreeComponents& free = solver_.free();
   const Eigen::VectorXd c = control(), way = free.gathered(x_) - free.gathered(behind_.x);
   const double last = c.size() > 0 ? c.dot(way) : 0.0;
@@ -117,15 +127,21 @@ bool QuasiStatic::follow_branch(double end) {
 
 void QuasiStatic::save_behind(ArraySet& restart) const {
   restart.add({"static_behind", "m", "node", 2, rows_from(behind_.x)});
-  restart.add(
-      {"static_branch", "1", "model", 1, std::vector<double>{behind_.time, behind_.length, following_ ? 1.0 : 0.0}});
+  restart.add({"static_branch", "1", "model", 1,
+               std::vector<double>{behind_.time, behind_.length, following_ ? 1.0 : 0.0, behind_.spent_at_start,
+                                   static_cast<double>(behind_.fruitless)}});
   if (!behind_.front.empty()) restart.add({"static_front", "J^(1/2)", "link", 1, behind_.front});
 }
 
 void QuasiStatic::restore_behind(const ArraySet& restart) {
   if (!settings_.follow || !restart.find("static_behind")) return;
   const auto& branch = restart.doubles("static_branch");
-  behind_ = {field_from(restart.doubles("static_behind")), branch.at(0), {}, branch.at(1)};
+  behind_ = {field_from(restart.doubles("static_behind")),
+             branch.at(0),
+             {},
+             branch.at(1),
+             branch.at(3),
+             static_cast<int>(branch.at(4))};
   if (restart.find("static_front")) behind_.front = restart.doubles("static_front");
   following_ = branch.at(2) != 0;
 }
