@@ -212,6 +212,10 @@ void add_accuracy(Summary& summary, const SummaryInputs& facts) {
     summary.add("accuracy", {"largest_residual", left, "1",
                              "largest force that an equilibrium has left, over the largest internal force then"});
   }
+  for (const EnergyBudget::Entry& sink : budget.sinks)
+    if (sink.name == "released")
+      summary.add("accuracy", {"released", sink.value.back(), "J",
+                               "set free where the sample fell to its next equilibrium, with breaks and without"});
   summary.add("accuracy", {"largest_work", budget.largest_work, "J", "largest work done on the sample"});
   double kinetic = 0, stored = 0;
   const double until = facts.setup ? facts.constants.time_at_peak : budget.time.back();

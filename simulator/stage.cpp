@@ -76,7 +76,7 @@ void StageDriver::columns(std::vector<std::string>& names, std::vector<std::stri
   if (model_->yields()) add("plastic", "J");
   const bool links_break = model_->links && (model_->links->breakable() || model_->rupture);
   if (links_break || model_->rupture) add("fracture", "J");
-  if (!moves() && (links_break || model_->rupture)) add("released", "J");
+  if (!moves()) add("released", "J");
   if (links_break) add("broken_links", "1");
   if (model_->rupture) add("broken_bars", "1");
   add("residual", "1"), add("unbalanced", "1");

@@ -174,6 +174,11 @@ std::string StaticStage::run(TrajectoryWriter& writer, const SimulateOptions& op
         "a factor",
         c.searches, c.iterations, c.forces, c.solves, c.factorizations, c.updates);
     writer.set_provenance(prefix() + "solver_cost", line);
+    if (stepper_->falls() > 0)
+      writer.set_provenance(prefix() + "falls",
+                            fmt::format("fell {} times from one branch of equilibria to another without a break; all "
+                                        "falls released {:.4g} J",
+                                        stepper_->falls(), stepper_->works().released));
     return why;
   };
   const auto count = [&] { step_ = first_step_ + stepper_->solver().cost().searches; };

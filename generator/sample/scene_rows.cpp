@@ -573,8 +573,9 @@ const std::vector<Row<RunScene>>& rows() {
       {.key = "unstable",
        .member = &S::unstable,
        .sentence =
-           "quasi_static, where links break without more load. fall: the load stays, and the curve drops. follow: the "
-           "load goes back to where the next link just breaks, and the curve snaps back.",
+           "quasi_static, where links break or soften without more load. fall: the load stays, and the curve drops. "
+           "follow: the load goes back to where the next link just breaks, or as links soften, and the curve snaps "
+           "back.",
        .choices = {"fall", "follow"}},
   };
   return list;

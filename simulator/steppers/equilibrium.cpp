@@ -27,6 +27,11 @@ constexpr double kLeastShift = 1e-12, kMostLeastShift = 1e-7, kMostShift = 1;
 constexpr double kLost = 50;  // way of a loose piece in one iteration, in mean segments
 // Over stiffness times extent: positions are rounded, and with them forces.
 constexpr double kRounding = 64 * 2.2e-16;
+// Of the potential and of a force times a mean segment: by less than this it may rise, as it is rounded.
+constexpr double kNoise = 1e-11;
+// A rest whose stiffness takes a larger shift, over the largest diagonal, is no minimum; how often, and how far [mean segments], it is left.
+constexpr double kFlat = 1e-9, kLeaveSaddle = 1e-3;
+constexpr int kMostSaddles = 20, kInverseIterations = 10;
 // No node goes further in one iteration, in mean segments.
 constexpr double kFarthest = 0.5;
 
@@ -47,6 +52,7 @@ EquilibriumSolver::EquilibriumSolver(Model& model, const std::vector<Load>& load
   for (double l : model.sample.rest_length)
     if (l > 0) length_ += l, ++count;
   length_ /= std::max<Index>(1, count);
+  barriers_ = model.links && model.links->softens();
 }
 
 void EquilibriumSolver::forget() {
@@ -102,6 +108,14 @@ void EquilibriumSolver::evaluate_all(const Field& x, Eigen::VectorXd& free) {
     f_.add(i, pull);
   }
   free = free_.gathered(f_);
+}
+
+double EquilibriumSolver::potential(const Field& x) const {
+  double sum = model_.energy(x);
+  for (std::size_t i = 0; i < x.size(); ++i) sum -= dead_.at(i).dot(x.at(i));
+  for (std::size_t i = 0; i < anchor_stiffness_.size(); ++i)
+    sum += 0.5 * anchor_stiffness_[i] * (x.at(i) - anchor_.at(i)).squaredNorm();
+  return sum;
 }
 
 double EquilibriumSolver::measure(const Eigen::VectorXd& f) {
@@ -215,6 +229,32 @@ bool EquilibriumSolver::rush(Field& x, double tolerance) {
   return false;
 }
 
+// Whole rows of links that soften may be at rest together where one alone would rather go on: such rest is no minimum. Inverse iteration finds
+// the direction of negative curvature.
+bool EquilibriumSolver::leave_saddle(Field& x, double height) {
+  if (free_.size() == 0) return false;
+  shift_ = 0;
+  refactor(x);
+  if (!factored_ || shift_ <= kFlat) return false;
+  Eigen::VectorXd v(free_.size());
+  for (Eigen::Index i = 0; i < v.size(); ++i) v[i] = std::sin(1.0 + 0.7 * static_cast<double>(i * i % 1009));
+  for (int k = 0; k < kInverseIterations; ++k) {
+    v = factor_.solve(v);
+    v /= v.cwiseAbs().maxCoeff();
+    ++cost_.solves;
+  }
+  for (double way = kLeaveSaddle * length_; way > 1e-6 * kLeaveSaddle * length_; way *= 0.1)
+    for (const double sign : {1.0, -1.0}) {
+      Field there = x;
+      free_.add(v, sign * way, there);
+      if (potential(there) < height - kNoise * (std::abs(height) + scale_ * length_)) {
+        x = std::move(there);
+        return true;
+      }
+    }
+  return false;
+}
+
 bool EquilibriumSolver::relax(Field& x, double tolerance) {
   ++cost_.searches;
   pairs_.clear();
@@ -224,13 +264,21 @@ bool EquilibriumSolver::relax(Field& x, double tolerance) {
   Eigen::VectorXd f, next;
   evaluate_all(x, f);
   double first = measure(f), before = first;
-  int since_factor = 0;
+  // Where links soften, a step may end beyond a barrier although the slope along it is small there.
+  double height = barriers_ ? potential(x) : 0.0, height_there = 0;
+  const auto noise = [&] { return kNoise * (std::abs(height) + scale_ * length_); };
+  int since_factor = 0, saddles = 0;
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
     if (!std::isfinite(residual_)) break;
-    if (residual_ <= tolerance) return true;
+    if (residual_ <= tolerance) {
+      if (!barriers_ || ++saddles > kMostSaddles || !leave_saddle(x, height)) return true;
+      evaluate_all(x, f), measure(f);
+      height = potential(x);
+      since_factor = 0, first = before = residual_;
+    }
     if (std::find(kRushes.begin(), kRushes.end(), iteration) != kRushes.end()) {
       Field rushed = x;
-      if (rush(rushed, tolerance)) {
+      if (rush(rushed, tolerance) && (!barriers_ || potential(rushed) <= height + noise())) {
         x = std::move(rushed);
         return true;
       }
@@ -264,8 +312,11 @@ bool EquilibriumSolver::relax(Field& x, double tolerance) {
       evaluate_all(there, next);
       const double slope_there = step.dot(next);
       if (std::isfinite(slope_there) && slope_there >= -0.7 * slope) {
-        found = true;
-        break;
+        if (barriers_) height_there = potential(there);
+        found = !barriers_ || height_there <= height + noise();
+        if (found) break;
+        alpha *= 0.3;
+        continue;
       }
       const double secant = std::isfinite(slope_there) ? slope / (slope - slope_there) : 0.1;
       alpha *= std::clamp(secant, 0.1, 0.7);
@@ -288,6 +339,7 @@ bool EquilibriumSolver::relax(Field& x, double tolerance) {
     }
     std::swap(x, there);
     std::swap(f, next);
+    height = height_there;
     before = residual_;
     measure(f);
     ++since_factor;

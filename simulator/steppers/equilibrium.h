@@ -41,6 +41,16 @@ class EquilibriumSolver {
   const Eigen::VectorXd& response(const Field& x, const Eigen::VectorXd& f);
   /// All forces at x, but for those of anchors; `free` receives those on free components.
   void evaluate(const Field& x, Eigen::VectorXd& free);
+  /// One iteration of Newton's method with an unknown load: K dx - f_t dt = f and c . dx = c_left (bordered_newton.cpp). `f`: what is left at
+  /// x; `f_t`: its change with time [N/s]. Returns false where there is no solution.
+  bool bordered_step(const Field& x, const Eigen::VectorXd& f, const Eigen::VectorXd& f_t, const Eigen::VectorXd& c,
+                     double c_left, Eigen::VectorXd& dx, double& dt);
+  /// Whether the stiffness at x is positive definite.
+  bool holds_at(const Field& x);
+  /// The largest of the forces that `evaluate` has left over the largest internal force.
+  double measure(const Eigen::VectorXd& f);
+  /// What a search minimises [J].
+  double potential(const Field& x) const;
   const FreeComponents& free() const { return free_; }
   /// Of all walls [m].
   double mean_segment() const { return length_; }
@@ -60,11 +70,11 @@ class EquilibriumSolver {
   void evaluate_all(const Field& x, Eigen::VectorXd& free);
   void refactor(const Field& x);
   bool rush(Field& x, double tolerance);
+  bool leave_saddle(Field& x, double height);
   Eigen::VectorXd tangent_solution(const Eigen::VectorXd& f);
   double allowed_share(const Field& x, const Eigen::VectorXd& step);
   Eigen::VectorXd direction(const Eigen::VectorXd& f);
   void follow_contacts(const Field& x);
-  double measure(const Eigen::VectorXd& f);
 
   Model& model_;
   std::vector<Term*> other_terms_;  // all but shell terms
@@ -77,6 +87,8 @@ class EquilibriumSolver {
   double largest_dead_ = 0;  // its square [N^2]
   std::vector<double> anchor_stiffness_;
   bool analyzed_ = false, factored_ = false;
+  bool barriers_ =
+      false;  // links soften: there is more than one minimum, and a search goes to none that lies higher than its start
   Field reached_;
   Field factor_x_;  // where the factor was made
   std::vector<double> factored_values_;

@@ -14,8 +14,9 @@ namespace {
 constexpr int kMostTries = 60;        // of one increment
 constexpr int kMostSearches = 20000;  // on the way through it
 constexpr double kShortest = 1e-12;   // increment, over the longest: below, a jump of the criterion is a jump
-constexpr double kWild = 0.1;         // share of a first-order motion that contacts allow: below, it is not used
-constexpr double kProbe = 1e-4;       // way of a grip from which its tangent is found, in mean segments
+constexpr double kFall = 1e-2;  // increment, over the longest: where it still leads to another branch, the sample falls
+constexpr double kWild = 0.1;   // share of a first-order motion that contacts allow: below, it is not used
+constexpr double kProbe = 1e-4;  // way of a grip from which its tangent is found, in mean segments
 
 }  // namespace
 
@@ -97,7 +98,12 @@ void QuasiStatic::bring_to_rest() {
   commit();
   while (hand_over_softened()) {
     Field x = x_;
-    if (!try_at(time_, x)) return give_up("no equilibrium after a break at this load", time_);
+    if (!try_at(time_, x)) {
+      if (softens_ && fall_to_rest(time_, x_)) return;
+      return give_up("no equilibrium after a break at this load", time_);
+    }
+    double turnover = 0;
+    works_.released += surplus_at(time_, x, turnover);
     accept(time_, std::move(x));
     commit();
   }
@@ -107,17 +113,6 @@ StaticWorks QuasiStatic::works() const {
   StaticWorks w = works_;
   if (softens_) w.fracture += model_.links->dissipated();
   return w;
-}
-
-void QuasiStatic::book_pressures(double time) {
-  std::vector<double> now;
-  for (std::size_t k = 0; k < model_.pressure_histories.size(); ++k) {
-    const PressureHistory& history = model_.pressure_histories[k];
-    now.push_back(model_.core->energy_per_pressure(history.cell, x_));
-    const double rise = history.at(time) - history.at(time_);
-    if (!lever_.empty()) works_.pressure += rise * 0.5 * (lever_[k] + now[k]);
-  }
-  lever_ = std::move(now);
 }
 
 namespace {
@@ -142,18 +137,12 @@ void keep_in_place(const Sample& sample, const std::vector<Load>& loads, const F
 /// The configuration at which the solver has just arrived becomes the present one.
 void QuasiStatic::accept(double time, Field x) {
   keep_in_place(model_.sample, loads_, x_, x);
-  const Field& f = solver_.force();
-  Field dead = pushes(time);
-  for (std::size_t k = 0; k < held_.size(); ++k) {
-    const Held& h = held_[k];
-    const double reaction = -f.at(h.node)[h.component];
-    works_.loads += 0.5 * (reaction + reaction_[k]) * (x.at(h.node)[h.component] - x_.at(h.node)[h.component]);
-    reaction_[k] = reaction;
-  }
-  for (std::size_t i = 0; i < x.size(); ++i) works_.loads += 0.5 * (dead.at(i) + dead_.at(i)).dot(x.at(i) - x_.at(i));
-  dead_ = std::move(dead);
+  StepWork work = work_to(time, x);
+  works_.loads += work.loads, works_.pressure += work.pressure;
+  lever_ = std::move(work.levers);
+  for (std::size_t k = 0; k < held_.size(); ++k) reaction_[k] = -solver_.force().at(held_[k].node)[held_[k].component];
+  dead_ = pushes(time);
   x_ = std::move(x);
-  book_pressures(time);
   time_ = time;
 }
 
@@ -209,6 +198,8 @@ Eigen::VectorXd QuasiStatic::first_motion(double increment) {
 
 void QuasiStatic::load_towards(double end, const std::function<bool()>& go_on) {
   const double target = end - time_ < 1.001 * settings_.longest ? end : time_ + settings_.longest;
+  const double began = time_;
+  if (following_ && follow_branch(end)) return;
   int searches = 0;
   while (time_ < target && !critical_ && over_.empty() && go_on()) {
     // Where searches have failed, the next one goes no further than twice the last that did not.
@@ -233,7 +224,7 @@ void QuasiStatic::load_towards(double end, const std::function<bool()>& go_on) {
     }
     // There, and as far back or on as it takes.
     low = 0, z_low = before, high = 0, z_high = 0;
-    Field there = predicted(step);
+    Field there = lower_start(time_ + step, predicted(step));
     bool wild = false;
     if (model_.contacts) {
       const auto share_of = [&](Field way) {
@@ -246,28 +237,43 @@ void QuasiStatic::load_towards(double end, const std::function<bool()>& go_on) {
       wild = share < kWild;
       if (wild) share = share_of(x_);
       step *= share;
-      there = wild ? x_ : predicted(step);
+      there = wild ? x_ : lower_start(time_ + step, predicted(step));
     }
+    const double shortest_leap = kFall * settings_.longest, shortest_onset = 1e-2 * shortest_leap;
+    // Here the branch ends: the way on is along it, with less load, or down, once it has been told where it ended.
+    const auto leave_branch = [&](double time, Field fallen) {
+      if (settings_.follow && follow_branch(end)) return;
+      if (time_ == began) fall_or_give_up(time, std::move(fallen));
+    };
+    const auto shorten = [&](double by) {
+      step *= by, trusted_ = step, high = 0;
+      there = wild ? x_ : lower_start(time_ + step, predicted(step));
+    };
     for (int tries = 0;; ++tries) {
       if (++searches > kMostSearches)
         return give_up("no equilibrium under a little more load, in many small steps", time_ + step);
       if (!try_at(time_ + step, there)) {
-        step = low + 0.3 * (step - low);
-        trusted_ = step;
+        if ((softens_ || settings_.follow) && step <= shortest_leap) return leave_branch(time_ + step, x_);
+        shorten(0.3);
         if (tries > kMostTries || step < kShortest * h)
           return give_up("no equilibrium under a little more load", time_ + step);
-        there = wild ? x_ : predicted(step);
-        high = 0;
         continue;
       }
       const double z = criterion(there);
       const bool at_last = high > 0 && high - low < kShortest * h;
       if (z <= settings_.load_tolerance || at_last || tries > kMostTries) {
-        const double left_before = softens_ ? works_.loads + works_.pressure - model_.energy(x_) : 0.0;
+        if (step > shortest_onset && tries <= kMostTries && begins_too_far(there)) {
+          shorten(0.5);
+          continue;
+        }
+        if (leaps(time_ + step, there)) {
+          if (step <= shortest_leap || tries > kMostTries) return leave_branch(time_ + step, std::move(there));
+          shorten(0.4);
+          continue;
+        }
+        remember();
         accept(step == h && h == target - time_ ? target : time_ + step, std::move(there));
         trusted_ = std::max(trusted_, 2 * step);
-        if (softens_)
-          works_.released += std::max(0.0, works_.loads + works_.pressure - model_.energy(x_) - left_before);
         bring_to_rest();
         critical_ = z >= -settings_.load_tolerance;
         break;
@@ -370,6 +376,7 @@ void QuasiStatic::break_link(Index link, std::int64_t place) {
 
 void QuasiStatic::fall(const std::function<bool()>& go_on) {
   std::int64_t place = 0;
+  behind_ = {};
   potential_ = potential(x_);
   while (critical_ && go_on()) {
     const std::size_t first = breaks_.size();
@@ -429,10 +436,12 @@ Field QuasiStatic::load_force_on_nodes() const {
 void QuasiStatic::save(ArraySet& restart) const {
   restart.add({"static_driver", "1", "model", 1,
                std::vector<double>{time_, works_.loads, works_.pressure, works_.fracture, works_.released,
-                                   static_cast<double>(avalanches_), critical_ ? 1.0 : 0.0}});
+                                   static_cast<double>(avalanches_), critical_ ? 1.0 : 0.0, largest_turnover_,
+                                   static_cast<double>(falls_)}});
   std::vector<double> origin;
   for (const Held& h : held_) origin.push_back(h.origin);
   restart.add({"static_origin", "m", "model", 1, std::move(origin)});
+  if (behind_.x.size() > 0) save_behind(restart);
 }
 
 void QuasiStatic::restore(const ArraySet& restart) {
@@ -447,6 +456,8 @@ void QuasiStatic::restore(const ArraySet& restart) {
   works_ = {driver.at(1), driver.at(2), driver.at(3), driver.at(4)};
   avalanches_ = static_cast<std::int64_t>(driver.at(5));
   critical_ = driver.at(6) != 0;
+  largest_turnover_ = driver.at(7), falls_ = static_cast<std::int64_t>(driver.at(8));
+  restore_behind(restart);
 }
 
 }  // namespace lamella

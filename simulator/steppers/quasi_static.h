@@ -31,8 +31,7 @@ struct BreakAtRest {
   double released = 0;         // energy that was free to become motion when the sample fell to its next equilibrium [J]
 };
 
-/// Booked since the stepper was made [J]. Where links soften, an increment of load may let the sample fall on its way: then what its work
-/// exceeds its energy by counts as released.
+/// Booked since the stepper was made [J].
 struct StaticWorks {
   double loads = 0, pressure = 0, fracture = 0, released = 0;
 };
@@ -64,6 +63,8 @@ class QuasiStatic {
   /// Breaks since the last call.
   std::vector<BreakAtRest> take_breaks() { return std::exchange(breaks_, {}); }
   StaticWorks works() const;
+  /// How often the sample fell to another branch of equilibria without a break.
+  std::int64_t falls() const { return falls_; }
   /// What each load exerts on the sample [N], and on each node.
   std::vector<Vec2> load_forces() const;
   Field load_force_on_nodes() const;
@@ -85,6 +86,27 @@ class QuasiStatic {
   void take_back();
   void prescribe(double time, Field& x);
   bool try_at(double time, Field& x);
+  /// Work of an increment, by the trapezoidal rule [J].
+  struct StepWork {
+    double loads = 0, pressure = 0;
+    double turnover = 0;         // sum of what is done by each force, and of what is done against each
+    std::vector<double> levers;  // of prescribed pressures, at its end [J/Pa]
+  };
+  StepWork work_to(double time, const Field& x) const;
+  double surplus_at(double time, const Field& x, double& turnover) const;
+  Field lower_start(double time, Field predicted);
+  bool fall_to_rest(double time, Field x);
+  bool leaps(double time, const Field& x);
+  bool begins_too_far(const Field& x);
+  std::vector<double> damage_fronts() const;
+  void remember();
+  Eigen::VectorXd control() const;
+  bool meet(const Eigen::VectorXd& c, double length, Field& x, double& time);
+  bool softens_at(const Field& x);
+  bool follow_branch(double end);
+  void save_behind(ArraySet& restart) const;
+  void restore_behind(const ArraySet& restart);
+  void fall_or_give_up(double time, Field x);
   void accept(double time, Field x);
   Field pushes(double time) const;
   double potential(const Field& x) const;
@@ -92,7 +114,6 @@ class QuasiStatic {
   void commit();
   bool hand_over_softened();
   void bring_to_rest();
-  void book_pressures(double time);
   void break_most_loaded(std::int64_t place);
   void break_link(Index link, std::int64_t place);
   void break_wall(const WallRupture::Loaded& bar, std::int64_t place);
@@ -117,7 +138,21 @@ class QuasiStatic {
   std::vector<double> lever_;  // of prescribed pressures, at the accepted configuration [J/Pa]
   bool dissipates_ = false;    // committing history lowers the potential: walls flow, or contacts rub
   std::string over_;
-  bool softens_ = false;  // links lose their hold little by little, in `commit`
+  double largest_turnover_ = 0;  // of one increment [J]
+  std::int64_t falls_ = 0;
+  // Where the load follows a branch: before the last increment.
+  struct Behind {
+    Field x;
+    double time = 0;            // [s]
+    std::vector<double> front;  // s_max of each link, as it was committed there [J^1/2]
+    double length = 0;          // of the next increment along the branch; 0: as long as the last
+    // What damage and breaks had taken where a branch was last begun to be followed [J].
+    double spent_at_start = -1e300;
+    int fruitless = 0;  // how often one was begun to be followed since, with next to no more damage
+  };
+  Behind behind_;
+  bool following_ = false;  // the present configuration lies on a branch that no search would find
+  bool softens_ = false;    // links lose their hold little by little, in `commit`
   bool critical_ = false;
   std::int64_t avalanches_ = 0;
   std::vector<BreakAtRest> breaks_;

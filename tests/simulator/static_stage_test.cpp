@@ -128,6 +128,8 @@ TEST(StaticStage, an_interrupted_run_resumes_to_the_same_bits) {
   const Scene rubbing = pulled({"contact.friction=0.3"});  // broken walls touch, and pieces come loose
   expect_the_same_bits(rubbing, 6);
   expect_the_same_bits(rubbing, 25);
+  // Its load follows links that soften back and forth.
+  expect_the_same_bits(pulled({"links.law=cohesive_zone", "links.toughness=0.3", "run.unstable=follow"}), 6);
 }
 
 TEST(StaticStage, implicit_runs_resume_to_the_same_bits_too) {
