@@ -22,10 +22,11 @@ using Block = Eigen::Array<double, Eigen::Dynamic, 1, 0, kBlock, 1>;
 
 constexpr double kLargestStep = 0.45;  // of time; stable up to 2 / sqrt(2 x 6 contacts) = 0.57
 constexpr double kLongestMove =
-    0.2;                             // in mean radii: disks that start on top of each other are not shot across the box
-constexpr double kSkin = 0.8;        // in mean radii
-constexpr int kFewestShared = 2000;  // disks that are worth a second thread
-constexpr double kTiny = 1e-150;     // added to lengths that are divided by
+    0.2;                       // in mean radii: disks that start on top of each other are not shot across the box
+constexpr double kSkin = 0.8;  // in mean radii
+constexpr int kFewestShared =
+    20000;  // disks; steps of fewer are so short that threads wait for each other longer than they work
+constexpr double kTiny = 1e-150;  // added to lengths that are divided by
 
 bool crosses(const Wall& wall, const Vec2& from, const Vec2& to) {
   const Vec2 d = wall.b - wall.a;
