@@ -21,11 +21,13 @@ struct Decoding {
   std::vector<png_bytep> rows;    // into raw
   std::array<char, 200> fault{};  // of libpng, or our own
   Colours colours = Colours::kRefuse;
+  bool broken = false;  // the fault is libpng's
 };
 
 [[noreturn]] void on_error(png_structp png, png_const_charp message) {
   auto* decoding = static_cast<Decoding*>(png_get_error_ptr(png));
   std::snprintf(decoding->fault.data(), decoding->fault.size(), "%s", message);
+  decoding->broken = true;
   png_longjmp(png, 1);
 }
 
@@ -107,10 +109,13 @@ Picture read_png(const std::filesystem::path& path, Colours colours) {
     done = decode(png, info, decoding);
   }
   png_destroy_read_struct(&png, &info, nullptr);
-  if (!done)
-    throw DataError(
-        fmt::format("{}: {}", path.string(), decoding.fault[0] ? decoding.fault.data() : "is no PNG that can be read"));
-  return std::move(decoding.picture);
+  if (done) return std::move(decoding.picture);
+  if (decoding.broken && std::feof(file.get()))
+    throw DataError(fmt::format("{}: is truncated: it ends within the picture; it must be a whole PNG", path.string()));
+  if (decoding.broken)
+    throw DataError(fmt::format("{}: is broken ({}); it must be a whole PNG", path.string(), decoding.fault.data()));
+  throw DataError(
+      fmt::format("{}: {}", path.string(), decoding.fault[0] ? decoding.fault.data() : "is no PNG that can be read"));
 }
 
 }  // namespace lamella

@@ -147,7 +147,7 @@ std::vector<Outline> outlines_of(const DomainScene& scene, std::vector<std::stri
   }
   for (std::size_t k = 0; k < scene.holes.size(); ++k) {
     const HoleScene& hole = scene.holes[k];
-    const std::string key = fmt::format("sample.domain.holes {}", k + 1);
+    const std::string key = fmt::format("sample.domain.holes[{}]", k);
     if (!hole.radius)
       outlines.push_back({key, hole.points});
     else if (!positive(*hole.radius))
@@ -185,7 +185,7 @@ Domain make_domain(const DomainScene& scene) {
   throw_if_any();
 
   Domain domain;
-  for (const Outline& outline : outlines) domain.loops.push_back(outline.points);
+  for (const Outline& outline : outlines) domain.loops.push_back(outline.points), domain.keys.push_back(outline.key);
   domain.box = box_of({domain.loops[0]});
   const double least = 1e-9 * domain.box.size().norm();
   for (const Outline& outline : outlines)

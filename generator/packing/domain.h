@@ -1,5 +1,6 @@
 // What a tissue fills where that is not a box: closed polygons, one of them outside and the others holes in it.
 #pragma once
+#include <string>
 #include <vector>
 
 #include "generator/sample/polygon.h"
@@ -13,8 +14,9 @@ struct Domain {
   /// make_domain the first is the outer one and counter-clockwise, the others are holes and clockwise, so that the domain
   /// lies to the left of every edge; no two edges touch but neighbours in their common point.
   std::vector<std::vector<Vec2>> loops;
-  Box box;          // that encloses them
-  double area = 0;  // [m2]
+  std::vector<std::string> keys;  // of each loop: what the scene calls it
+  Box box;                        // that encloses them
+  double area = 0;                // [m2]
 
   /// By counting the edges to the right of p: a point on an edge may count as either.
   bool contains(const Vec2& p) const;

@@ -221,7 +221,7 @@ void follow_factor(Filling& filling, const PackingProgress& progress) {
   }
 }
 
-void jam(SoftDisks& disks, double start, const PackingProgress& progress) {
+double jam(SoftDisks& disks, double start, const PackingProgress& progress, double needed) {
   scale_radii(disks, std::sqrt(start / fraction_of(disks)));
   double fraction = start, jammed_fraction = start, jammed_pressure = 0;
   double slope = 1;  // of the pressure; it is about 0.5 near jamming: the first steps are rather too small
@@ -238,6 +238,7 @@ void jam(SoftDisks& disks, double start, const PackingProgress& progress) {
       if (jammed_pressure > state.pressure && jammed_fraction > fraction)
         slope = (jammed_pressure - state.pressure) / (jammed_fraction - fraction);
       jammed_fraction = fraction, jammed_pressure = state.pressure;
+      if (fraction < needed) return std::max(fraction - state.pressure / std::min(slope, 0.5), fraction / 2);
       next = std::max(fraction - 0.8 * state.pressure / slope, fraction / 2);
     } else if (jammed_fraction - fraction < 1e-6) {
       break;
@@ -248,6 +249,7 @@ void jam(SoftDisks& disks, double start, const PackingProgress& progress) {
   // What overlap is left, about a millionth, is taken off the radii.
   for (double overlap; (overlap = relative_overlap(disks)) > 0;)
     scale_radii(disks, std::max(1 - 1.01 * overlap - 1e-12, 0.5));
+  return fraction_of(disks);
 }
 
 void separate(Filling& filling, Random& random, const PackingProgress& progress) {
@@ -264,17 +266,18 @@ void separate(Filling& filling, Random& random, const PackingProgress& progress)
   // Few disks jam at fractions that scatter widely, and cost little.
   const int trials = std::clamp(static_cast<int>(4000 / disks.x.size()), 2, 20);
   const double scatter = 0.5 / std::sqrt(static_cast<double>(disks.x.size()));
+  // What is far off is not tried again.
+  const auto hopeless = [&](int trial, double missing) { return missing > (trial > 2 ? 1 : 3) * scatter; };
   for (int trial = 0; trial < trials; ++trial) {
     const Relaxation state = push_apart(disks, report);
     if (state.end == RelaxationEnd::kSeparated) return;
     // The pressure is about half the distance from the fraction at which they jam.
-    if (trial >= 2 && 2 * state.pressure > scatter) break;
+    if (hopeless(trial + 1, 2 * state.pressure)) break;
     shake(filling, trial % 2 == 0 ? 0.2 : 0.5, random);
   }
   double densest = 0;
-  for (int trial = 0; trial < trials && (trial < 3 || densest > fraction - scatter); ++trial) {
-    jam(disks, std::max(1.05 * fraction, 0.9), progress);
-    const double jammed = fraction_of(disks);
+  for (int trial = 0; trial < trials && (trial == 0 || !hopeless(trial, fraction - densest)); ++trial) {
+    const double jammed = jam(disks, std::max(1.05 * fraction, 0.9), progress, fraction);
     densest = std::max(densest, jammed);
     disks.radius = radius;
     if (jammed > fraction) return;

@@ -38,8 +38,9 @@ void follow_factor(Filling& filling, const PackingProgress& progress);
 /// jammed from a higher fraction, which packs denser, and given back the room that is then left. Throws SceneError.
 void separate(Filling& filling, Random& random, const PackingProgress& progress);
 
-/// Compresses to the fraction `start`, beyond jamming, then shrinks the disks to where the pressure vanishes.
-void jam(SoftDisks& disks, double start, const PackingProgress& progress);
+/// Compresses to the fraction `start`, beyond jamming, then shrinks the disks to where the pressure vanishes. Returns the fraction at
+/// which they jam. Once that is known to be below `needed`, it is a guess, and the disks are left as they are then.
+double jam(SoftDisks& disks, double start, const PackingProgress& progress, double needed = 0);
 
 /// Of each disk: relative difference of its radius from what its place asks for, up to the common scale [1].
 std::vector<double> size_deviations(const Filling& filling);

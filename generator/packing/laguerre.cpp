@@ -178,8 +178,11 @@ void refuse_hidden(const Tessellation& result, const std::vector<Index>& dropped
   if (!faults.empty()) refuse(std::move(faults));
 }
 
-Tessellation tessellate(const std::vector<PowerSite>& sites, const Box& box, const LaguerreOptions& options,
-                        const Naming& name_of) {
+/// Takes the sites anew where it needs them again, which is rare, rather than keep them.
+Tessellation tessellate(const std::function<std::vector<PowerSite>()>& make_sites, const Box& box,
+                        const LaguerreOptions& options, const Naming& name_of) {
+  std::vector<PowerSite> sites = make_sites();
+  const auto count = static_cast<Index>(sites.size());
   if (sites.empty()) throw SceneError("the packing has no disks: a tessellation needs at least one");
   refuse_bad_box(box);
   refuse_sites_outside(sites, box, options.periodic, 0, name_of);
@@ -188,19 +191,18 @@ Tessellation tessellate(const std::vector<PowerSite>& sites, const Box& box, con
   result.periodic = options.periodic;
   std::vector<Index> kept(sites.size());
   std::iota(kept.begin(), kept.end(), 0);
-  const auto diagram = [&] {
-    std::vector<PowerSite> some;
-    some.reserve(kept.size());
-    for (const Index i : kept) some.push_back(sites[i]);
-    return plane_diagram(std::move(some), box, options.periodic);
-  };
-  PlaneDiagram plane = diagram();
+  PlaneDiagram plane = plane_diagram(std::move(sites), box, options.periodic);
   const std::vector<Index> dropped = later_duplicates(plane, options.duplicates, name_of);
   // A hidden site does not change the diagram, but slivers do by their rounding: once more without, until there are none.
-  for (std::vector<Index> slivers; !(slivers = make_tiles(plane, kept, result)).empty(); plane = diagram())
+  for (std::vector<Index> slivers; !(slivers = make_tiles(plane, kept, result)).empty();) {
     std::erase_if(kept, [&](Index site) { return std::binary_search(slivers.begin(), slivers.end(), site); });
+    const std::vector<PowerSite> all = make_sites();
+    std::vector<PowerSite> some;
+    for (const Index i : kept) some.push_back(all[i]);
+    plane = plane_diagram(std::move(some), box, options.periodic);
+  }
   auto tile = result.tiles.begin();
-  for (Index i = 0; i < static_cast<Index>(sites.size()); ++i) {
+  for (Index i = 0; i < count; ++i) {
     if (tile != result.tiles.end() && tile->site == i)
       ++tile;
     else
@@ -214,13 +216,13 @@ Tessellation tessellate(const std::vector<PowerSite>& sites, const Box& box, con
 
 Tessellation tessellate(const std::vector<Disk>& disks, const Box& box, const LaguerreOptions& options) {
   const Naming name_of = names_of(disks);
-  return tessellate(sites_of(disks, name_of), box, options, name_of);
+  return tessellate([&] { return sites_of(disks, name_of); }, box, options, name_of);
 }
 
 Tessellation tessellate(const std::vector<Vec2>& centres, const std::vector<double>& weights, const Box& box,
                         const LaguerreOptions& options) {
   const Naming name_of = names_of(centres, weights);
-  return tessellate(sites_of(centres, weights, name_of), box, options, name_of);
+  return tessellate([&] { return sites_of(centres, weights, name_of); }, box, options, name_of);
 }
 
 TileMeasures measure_tiles(const std::vector<Vec2>& centres, const std::vector<double>& weights, const Box& box,

@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "generator/packing/domain.h"
+#include "generator/sample/parallel.h"
 
 namespace lamella {
 namespace {
@@ -17,10 +18,10 @@ class Ghosts {
  public:
   Ghosts(Neighbours& list, const Vec2& size, Eigen::Index disks) : list_(list), size_(size), disks_(disks) {}
 
-  std::int32_t of(std::int32_t disk, int image_x, int image_y) {
-    const std::int64_t key = (disk * kImages + image_x + kImages / 2) * kImages + image_y + kImages / 2;
+  std::int32_t of(std::int32_t disk, std::array<int, 2> image) {
+    const std::int64_t key = (disk * kImages + image[0] + kImages / 2) * kImages + image[1] + kImages / 2;
     const auto [at, is_new] = number_.insert({key, static_cast<std::int32_t>(disks_ + list_.ghosts.size())});
-    if (is_new) list_.ghosts.push_back({disk, {image_x * size_.x(), image_y * size_.y()}});
+    if (is_new) list_.ghosts.push_back({disk, image, {image[0] * size_.x(), image[1] * size_.y()}});
     return at->second;
   }
 
@@ -69,10 +70,34 @@ std::vector<std::int32_t> NeighbourGrid::order(const DiskArrays& disks) {
 }
 
 Neighbours NeighbourGrid::list(const DiskArrays& disks, const std::vector<Wall>& walls, double skin) const {
+  constexpr std::size_t kPiece = 4096;
+  const auto count = static_cast<std::size_t>(disks.count);
+  std::vector<Neighbours> pieces((count + kPiece - 1) / kPiece);
+  for_pieces(count, kPiece, [&](std::size_t begin, std::size_t end) {
+    pieces[begin / kPiece] = pairs(disks, skin, static_cast<std::int32_t>(begin), static_cast<std::int32_t>(end));
+  });
+  Neighbours list;
+  Ghosts ghosts(list, size_, disks.count);
+  std::size_t all = 0;
+  for (const Neighbours& piece : pieces) all += piece.first.size();
+  list.first.reserve(all), list.second.reserve(all);
+  for (const Neighbours& piece : pieces) {
+    // Each piece has numbered its ghosts itself.
+    std::vector<std::int32_t> number;
+    for (const Ghost& ghost : piece.ghosts) number.push_back(ghosts.of(ghost.owner, ghost.image));
+    list.first.insert(list.first.end(), piece.first.begin(), piece.first.end());
+    for (const std::int32_t j : piece.second) list.second.push_back(j < disks.count ? j : number[j - disks.count]);
+  }
+  if (!walls.empty()) list_at_walls(disks, walls, skin, list);
+  return list;
+}
+
+/// Those of the disks [from, to) with smaller ones.
+Neighbours NeighbourGrid::pairs(const DiskArrays& disks, double skin, std::int32_t from, std::int32_t to) const {
   const auto& [x, y, radius, count] = disks;
   Neighbours list;
   Ghosts ghosts(list, size_, count);
-  for (std::int32_t i = 0; i < count; ++i) {
+  for (std::int32_t i = from; i < to; ++i) {
     // Every pair is found from its larger disk, so that small disks need not look as far as the largest reaches.
     const double far = 2 * radius[i] + skin;
     const int last_row = row(y[i] + far), last_column = column(x[i] + far), first_column = column(x[i] - far);
@@ -93,12 +118,17 @@ Neighbours NeighbourGrid::list(const DiskArrays& disks, const std::vector<Wall>&
           if (j == i || radius[j] > radius[i] || (radius[j] == radius[i] && j > i)) continue;
           list.first.push_back(i);
           list.second.push_back(
-              at_column.image == 0 && at_row.image == 0 ? j : ghosts.of(j, at_column.image, at_row.image));
+              at_column.image == 0 && at_row.image == 0 ? j : ghosts.of(j, {at_column.image, at_row.image}));
         }
       }
     }
   }
-  if (walls.empty()) return list;
+  return list;
+}
+
+void NeighbourGrid::list_at_walls(const DiskArrays& disks, const std::vector<Wall>& walls, double skin,
+                                  Neighbours& list) const {
+  const auto& [x, y, radius, count] = disks;
   const double far = radius.head(count).maxCoeff() + skin;
   for (std::size_t w = 0; w < walls.size(); ++w) {
     const Vec2 lo = walls[w].a.cwiseMin(walls[w].b), hi = walls[w].a.cwiseMax(walls[w].b);
@@ -111,7 +141,6 @@ Neighbours NeighbourGrid::list(const DiskArrays& disks, const std::vector<Wall>&
           list.at_wall.push_back({i, static_cast<std::int32_t>(w)});
     }
   }
-  return list;
 }
 
 }  // namespace lamella

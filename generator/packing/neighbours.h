@@ -17,7 +17,8 @@ struct Wall {
 /// The image of a disk, its owner, beyond a periodic side.
 struct Ghost {
   std::int32_t owner;
-  Vec2 shift;  // whole box lengths
+  std::array<int, 2> image;
+  Vec2 shift;  // image, in box lengths [m]
 };
 
 struct Neighbours {
@@ -46,6 +47,8 @@ class NeighbourGrid {
  private:
   int column(double x) const;
   int row(double y) const;
+  Neighbours pairs(const DiskArrays& disks, double skin, std::int32_t from, std::int32_t to) const;
+  void list_at_walls(const DiskArrays& disks, const std::vector<Wall>& walls, double skin, Neighbours& list) const;
 
   Vec2 size_;
   Periodic periodic_;

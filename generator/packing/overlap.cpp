@@ -6,6 +6,7 @@
 
 #include "generator/packing/domain.h"
 #include "generator/packing/packing.h"
+#include "generator/sample/parallel.h"
 
 namespace lamella {
 
@@ -42,18 +43,24 @@ double largest_overlap(const Packing& packing) {
   }
   // Along x, each disk looks both ways for those that are not larger, until none of them can reach it.
   std::sort(disks.begin(), disks.end(), [](const Disk& a, const Disk& b) { return a.centre.x() < b.centre.x(); });
-  const auto look = [&](const Disk& disk, const Disk& other) {
-    const Vec2 d = other.centre - disk.centre;
-    if (std::abs(d.x()) > 2 * disk.radius - largest) return false;
-    if (other.radius <= disk.radius) largest = std::max(largest, disk.radius + other.radius - d.norm());
-    return true;
-  };
-  for (std::size_t i = 0; i < disks.size(); ++i) {
-    for (std::size_t j = i + 1; j < disks.size() && look(disks[i], disks[j]); ++j) {
+  constexpr std::size_t kPiece = 4096;
+  std::vector<double> of_piece((disks.size() + kPiece - 1) / kPiece, largest);
+  for_pieces(disks.size(), kPiece, [&](std::size_t begin, std::size_t end) {
+    double& so_far = of_piece[begin / kPiece];
+    const auto look = [&](const Disk& disk, const Disk& other) {
+      const Vec2 d = other.centre - disk.centre;
+      if (std::abs(d.x()) > 2 * disk.radius - so_far) return false;
+      if (other.radius <= disk.radius) so_far = std::max(so_far, disk.radius + other.radius - d.norm());
+      return true;
+    };
+    for (std::size_t i = begin; i < end; ++i) {
+      for (std::size_t j = i + 1; j < disks.size() && look(disks[i], disks[j]); ++j) {
+      }
+      for (std::size_t j = i; j > 0 && look(disks[i], disks[j - 1]); --j) {
+      }
     }
-    for (std::size_t j = i; j > 0 && look(disks[i], disks[j - 1]); --j) {
-    }
-  }
+  });
+  for (const double piece : of_piece) largest = std::max(largest, piece);
   return largest;
 }
 

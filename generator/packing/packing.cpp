@@ -128,6 +128,7 @@ Packing make_packing(const Scene& scene, const PackingProgress& progress, const 
     if (!packing.target_area.empty() && !sample.areas)
       packing.notes.push_back(fmt::format(
           "{}: states areas of cells, which cells have with a section [sample.areas] only", sample.packing.file));
+    if (sample.areas && !at_random && sample.packing.duplicates == "keep_first") keep_first_at_each_place(packing);
     if (at_random) {
       scatter(packing, scene.seed);
       return packing;

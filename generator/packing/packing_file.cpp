@@ -168,6 +168,34 @@ Packing read_packing(const std::filesystem::path& path, const Box* box, const st
   return packing;
 }
 
+void keep_first_at_each_place(Packing& packing) {
+  std::map<std::array<double, 2>, std::size_t> first;
+  std::vector<std::string> dropped;
+  const bool with_area = !packing.target_area.empty();
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < packing.disks.size(); ++k) {
+    Vec2 place = packing.disks[k].centre;
+    for (const int axis : {0, 1})
+      if (packing.periodic[axis] && place[axis] == packing.box.hi[axis]) place[axis] = packing.box.lo[axis];
+    const auto [same, is_new] = first.insert({{place.x(), place.y()}, k});
+    if (!is_new) {
+      if (dropped.size() < 10) dropped.push_back(fmt::format("{} as {}", k, same->second));
+      continue;
+    }
+    packing.disks[kept] = packing.disks[k];
+    if (with_area) packing.target_area[kept] = packing.target_area[k];
+    ++kept;
+  }
+  if (kept == packing.disks.size()) return;
+  packing.notes.push_back(
+      fmt::format("{} disks left out that lie where an earlier one lies, as no areas can be shared "
+                  "between them: {}",
+                  packing.disks.size() - kept, fmt::join(dropped, ", ")));
+  packing.disks.resize(kept);
+  if (with_area) packing.target_area.resize(kept);
+  packing.fraction = area_fraction(packing.disks, packing.box);
+}
+
 void write_packing(const std::filesystem::path& path, const Packing& packing) {
   std::ofstream out(path);
   const bool with_area = !packing.target_area.empty();

@@ -15,6 +15,9 @@ namespace lamella {
 Packing read_packing(const std::filesystem::path& path, const Box* box = nullptr,
                      const std::string& duplicates = "error");
 
+/// Of disks that lie at one place, on a torus up to its lengths, leaves the first, and a note. For a packing as read.
+void keep_first_at_each_place(Packing& packing);
+
 /// Writes a packing so that read_packing returns the same disks, bit for bit. Throws DataError.
 void write_packing(const std::filesystem::path& path, const Packing& packing);
 

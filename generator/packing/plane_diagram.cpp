@@ -44,7 +44,7 @@ void wrap(PlaneDiagram& plane, const Box& box) {
     plane.box.hi[axis] = length[axis];
   }
   const auto inside = [](const Image& image) { return image[0] == 0 && image[1] == 0; };
-  if (std::all_of(plane.wrapped.begin(), plane.wrapped.end(), inside)) plane.wrapped.clear();
+  if (std::all_of(plane.wrapped.begin(), plane.wrapped.end(), inside)) plane.wrapped = {};
 }
 
 /// Copies within reach of a rectangle about the box, and the check that they are enough.

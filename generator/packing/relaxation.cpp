@@ -6,6 +6,9 @@
 #include <utility>
 
 #include "generator/packing/domain.h"
+#include "generator/packing/pair_shares.h"
+#include "generator/sample/parallel.h"
+#include "generator/sample/team.h"
 
 namespace lamella {
 namespace {
@@ -19,8 +22,10 @@ using Block = Eigen::Array<double, Eigen::Dynamic, 1, 0, kBlock, 1>;
 
 constexpr double kLargestStep = 0.45;  // of time; stable up to 2 / sqrt(2 x 6 contacts) = 0.57
 constexpr double kLongestMove =
-    0.2;                          // in mean radii: disks that start on top of each other are not shot across the box
-constexpr double kSkin = 0.8;     // in mean radii
+    0.2;                       // in mean radii: disks that start on top of each other are not shot across the box
+constexpr double kSkin = 0.8;  // in mean radii
+constexpr int kFewestShared =
+    20000;  // disks; steps of fewer are so short that threads wait for each other longer than they work
 constexpr double kTiny = 1e-150;  // added to lengths that are divided by
 
 bool crosses(const Wall& wall, const Vec2& from, const Vec2& to) {
@@ -33,7 +38,11 @@ bool crosses(const Wall& wall, const Vec2& from, const Vec2& to) {
 class Fire {
  public:
   Fire(SoftDisks& disks, const RelaxationGoal& goal)
-      : disks_(disks), goal_(goal), n_(static_cast<Index>(disks.x.size())), id_(n_) {
+      : disks_(disks),
+        goal_(goal),
+        n_(static_cast<Index>(disks.x.size())),
+        team_(n_ < kFewestShared ? 1 : threads_in_use()),
+        id_(n_) {
     std::iota(id_.begin(), id_.end(), 0);
     for (ArrayXd* a : {&x_, &y_, &vx_, &vy_, &fx_, &fy_, &radius_, &mass_}) a->setZero(n_);
     for (Index i = 0; i < n_; ++i) x_[i] = disks.x[i].x(), y_[i] = disks.x[i].y(), radius_[i] = disks.radius[i];
@@ -52,16 +61,7 @@ class Fire {
       compute_forces(state);
       if (progress && state.steps % 256 == 0) progress(state);
       if (state.end != RelaxationEnd::kOutOfSteps) break;
-
-      double power = 0, v2 = 0, a2 = 0;
-      for (Index begin = 0; begin < n_; begin += kBlock) {
-        const Index m = std::min(kBlock, n_ - begin);
-        const auto vx = vx_.segment(begin, m), vy = vy_.segment(begin, m);
-        const auto fx = fx_.segment(begin, m), fy = fy_.segment(begin, m);
-        power += (fx * vx + fy * vy).sum();
-        v2 += (vx * vx + vy * vy).sum();
-        a2 += ((fx * fx + fy * fy) / mass_.segment(begin, m).square()).sum();
-      }
+      const auto& [power, v2, a2, largest_force2] = motion_;
       if (power > 0) {
         if (++downhill > 5) dt = std::min(1.1 * dt, kLargestStep), mixing *= 0.99;
       } else {
@@ -97,10 +97,8 @@ class Fire {
   /// v = keep v + (steer + dt) a; x += dt v.
   void move(double dt, double keep, double steer) {
     const double limit = kLongestMove * mean_radius_;
-    double farthest2 = 0;
     remember_at_walls();
-    for (Index begin = 0; begin < n_; begin += kBlock) {
-      const Index m = std::min(kBlock, n_ - begin);
+    for_blocks([&](Index begin, Index m) {
       auto x = x_.segment(begin, m), y = y_.segment(begin, m), vx = vx_.segment(begin, m), vy = vy_.segment(begin, m);
       const Block gain = (steer + dt) / mass_.segment(begin, m);
       vx = keep * vx + gain * fx_.segment(begin, m);
@@ -108,12 +106,12 @@ class Fire {
       const Block slow = (limit / (dt * (vx * vx + vy * vy).sqrt() + kTiny)).min(1.0);
       vx *= slow, vy *= slow;
       x += dt * vx, y += dt * vy;
-      farthest2 = std::max(
-          farthest2,
-          ((x - x_listed_.segment(begin, m)).square() + (y - y_listed_.segment(begin, m)).square()).maxCoeff());
-    }
+      farthest2_[begin / kBlock] =
+          ((x - x_listed_.segment(begin, m)).square() + (y - y_listed_.segment(begin, m)).square()).maxCoeff();
+    });
     stop_at_walls();
-    if (farthest2 > std::pow(kSkin * mean_radius_ / 2, 2)) list_neighbours();
+    if (*std::max_element(farthest2_.begin(), farthest2_.end()) > std::pow(kSkin * mean_radius_ / 2, 2))
+      list_neighbours();
   }
 
   void remember_at_walls() {
@@ -133,7 +131,25 @@ class Fire {
   struct Sums {
     double virial = 0, overlap = 0, largest = 0;
     Index contacts = 0;
+
+    void operator+=(const Sums& other) {
+      virial += other.virial, overlap += other.overlap, contacts += other.contacts;
+      largest = std::max(largest, other.largest);
+    }
   };
+  struct Motion {
+    double power = 0, speed2 = 0, acceleration2 = 0, largest_force2 = 0;
+  };
+
+  /// Calls work(begin, count) for all blocks of disks, shared among the threads.
+  template <class Work>
+  void for_blocks(const Work& work) {
+    const Index blocks = (n_ + kBlock - 1) / kBlock, team = team_.size();
+    team_.run([&](int thread) {
+      for (Index b = blocks * thread / team; b < blocks * (thread + 1) / team; ++b)
+        work(b * kBlock, std::min(kBlock, n_ - b * kBlock));
+    });
+  }
 
   void compute_forces(Relaxation& state) {
     const auto ghosts = static_cast<Index>(list_.ghosts.size());
@@ -142,9 +158,10 @@ class Fire {
       x_[n_ + g] = x_[ghost.owner] + ghost.shift.x();
       y_[n_ + g] = y_[ghost.owner] + ghost.shift.y();
     }
-    fx_.setZero(), fy_.setZero();
+    team_.run([&](int thread) { add_pairs(shares_[thread]); });
+    // Summed in the order of the blocks, whoever computed them.
     Sums sums;
-    add_pairs(sums);
+    for (const Sums& block : pair_sums_) sums += block;
     for (Index g = 0; g < ghosts; ++g) {
       fx_[list_.ghosts[g].owner] += fx_[n_ + g];
       fy_[list_.ghosts[g].owner] += fy_[n_ + g];
@@ -152,24 +169,42 @@ class Fire {
     if (!disks_.periodic[0]) add_sides(x_, fx_, disks_.size.x(), sums);
     if (!disks_.periodic[1]) add_sides(y_, fy_, disks_.size.y(), sums);
     add_walls(sums);
+    measure_motion();
 
     state.pressure = sums.virial / (2 * disks_.area);
     state.overlap = sums.largest;
     // 5 % of the clearance are left for rounding.
     if (sums.largest <= 0.95 * goal_.clearance / (1 + goal_.clearance))
       state.end = RelaxationEnd::kSeparated;
-    else if (largest_force() < goal_.balance * sums.overlap / static_cast<double>(sums.contacts))
+    else if (std::sqrt(motion_.largest_force2) < goal_.balance * sums.overlap / static_cast<double>(sums.contacts))
       state.end = RelaxationEnd::kBalanced;
   }
 
-  double largest_force() const { return std::sqrt((fx_.head(n_).square() + fy_.head(n_).square()).maxCoeff()); }
+  void measure_motion() {
+    for_blocks([&](Index begin, Index m) {
+      const auto vx = vx_.segment(begin, m), vy = vy_.segment(begin, m);
+      const auto fx = fx_.segment(begin, m), fy = fy_.segment(begin, m);
+      const Block f2 = fx * fx + fy * fy;
+      motions_[begin / kBlock] = {(fx * vx + fy * vy).sum(), (vx * vx + vy * vy).sum(),
+                                  (f2 / mass_.segment(begin, m).square()).sum(), f2.maxCoeff()};
+    });
+    motion_ = {};
+    for (const Motion& block : motions_) {
+      motion_.power += block.power, motion_.speed2 += block.speed2, motion_.acceleration2 += block.acceleration2;
+      motion_.largest_force2 = std::max(motion_.largest_force2, block.largest_force2);
+    }
+  }
 
-  void add_pairs(Sums& sums) {
-    const auto pairs = static_cast<Index>(list_.first.size());
+  /// Forces of the share's disks, from nothing.
+  void add_pairs(const PairShare& share) {
+    for (ArrayXd* f : {&fx_, &fy_}) {
+      f->segment(share.disk_begin, share.disk_end - share.disk_begin).setZero();
+      f->segment(share.ghost_begin, share.ghost_end - share.ghost_begin).setZero();
+    }
     Block dx(kBlock), dy(kBlock), reach(kBlock), distance, overlap, factor;
-    for (Index begin = 0; begin < pairs; begin += kBlock) {
-      const Index m = std::min(kBlock, pairs - begin);
-      const std::int32_t *first = list_.first.data() + begin, *second = list_.second.data() + begin;
+    for (const PairShare::Block& block : share.blocks) {
+      const Index m = block.count;
+      const std::int32_t *first = list_.first.data() + block.begin, *second = list_.second.data() + block.begin;
       dx.resize(m), dy.resize(m), reach.resize(m);
       for (Index k = 0; k < m; ++k) {
         const std::int32_t i = first[k], j = second[k];
@@ -179,34 +214,27 @@ class Fire {
       overlap = (reach - distance).max(0.0);
       factor = overlap / (distance + kTiny);
       dx *= factor, dy *= factor;
-      sums.virial += (overlap * distance).sum();
-      sums.overlap += overlap.sum();
-      sums.largest = std::max(sums.largest, (overlap / reach).maxCoeff());
-      sums.contacts += (overlap > 0).count();
+      if (block.first)
+        pair_sums_[block.begin / kBlock] = {(overlap * distance).sum(), overlap.sum(), (overlap / reach).maxCoeff(),
+                                            (overlap > 0).count()};
       for (Index k = 0; k < m; ++k) {
         const std::int32_t i = first[k], j = second[k];
-        fx_[i] -= dx[k], fy_[i] -= dy[k];
-        fx_[j] += dx[k], fy_[j] += dy[k];
+        if (block.whole || share.owns(i)) fx_[i] -= dx[k], fy_[i] -= dy[k];
+        if (block.whole || share.owns(j)) fx_[j] += dx[k], fy_[j] += dy[k];
       }
     }
   }
 
   /// The two sides of the box that bound one coordinate.
   void add_sides(const ArrayXd& x, ArrayXd& f, double length, Sums& sums) {
-    Block low, high, both;
-    for (Index begin = 0; begin < n_; begin += kBlock) {
-      const Index m = std::min(kBlock, n_ - begin);
+    for_blocks([&](Index begin, Index m) {
       const auto r = radius_.segment(begin, m);
       const auto at = x.segment(begin, m);
-      low = (r - at).max(0.0);
-      high = (at + r - length).max(0.0);
+      const Block low = (r - at).max(0.0), high = (at + r - length).max(0.0), both = low + high;
       f.segment(begin, m) += low - high;
-      both = low + high;
-      sums.virial += (both * r).sum();
-      sums.overlap += both.sum();
-      sums.largest = std::max(sums.largest, (both / r).maxCoeff());
-      sums.contacts += (both > 0).count();
-    }
+      side_sums_[begin / kBlock] = {(both * r).sum(), both.sum(), (both / r).maxCoeff(), (both > 0).count()};
+    });
+    for (const Sums& block : side_sums_) sums += block;
   }
 
   void add_walls(Sums& sums) {
@@ -248,17 +276,28 @@ class Fire {
     const auto ghosts = static_cast<Index>(list_.ghosts.size());
     for (ArrayXd* a : {&x_, &y_, &fx_, &fy_, &radius_}) a->conservativeResize(n_ + ghosts);
     for (Index g = 0; g < ghosts; ++g) radius_[n_ + g] = radius_[list_.ghosts[g].owner];
+    shares_ = share_pairs(list_, static_cast<std::int32_t>(n_), team_.size(), kBlock);
+    pair_sums_.resize((list_.first.size() + kBlock - 1) / kBlock);
+    const Index blocks = (n_ + kBlock - 1) / kBlock;
+    side_sums_.resize(blocks), motions_.resize(blocks), farthest2_.resize(blocks);
   }
 
   SoftDisks& disks_;
   const RelaxationGoal& goal_;
   Index n_;
+  Team team_;
   std::vector<std::int32_t> id_;                       // of the caller
   ArrayXd x_, y_, vx_, vy_, fx_, fy_, radius_, mass_;  // where pairs look things up, ghosts follow the disks
   ArrayXd x_listed_, y_listed_;
   double mean_radius_ = 0;
   Neighbours list_;
-  std::vector<Vec2> before_;  // where the disks of list_.at_wall were before a step
+  std::vector<PairShare> shares_;  // per thread
+  std::vector<Sums> pair_sums_;    // per block of pairs
+  std::vector<Sums> side_sums_;    // per block of disks
+  std::vector<Motion> motions_;
+  std::vector<double> farthest2_;  // that a disk has moved since they were listed
+  Motion motion_;                  // of all
+  std::vector<Vec2> before_;       // where the disks of list_.at_wall were before a step
 };
 
 }  // namespace

@@ -58,7 +58,7 @@ void check_mixture(const std::vector<MixtureScene>& mixture, std::vector<std::st
   bool by_number = false, by_area = false;
   for (std::size_t k = 0; k < mixture.size(); ++k) {
     const MixtureScene& part = mixture[k];
-    const std::string path = fmt::format("sample.sizes.mixture {}", k + 1);
+    const std::string path = fmt::format("sample.sizes.mixture[{}]", k);
     if (is_family(part.distribution))
       check_family(path, part.distribution, part.mean, part.cv, faults);
     else
@@ -154,9 +154,9 @@ std::vector<int> numbers_of(const std::vector<MixtureScene>& mixture, int count)
     so_far = until;
     if (numbers.back() < 1)
       throw SceneError(
-          fmt::format("sample.sizes.mixture {}: has {:.2g} of {} disks: less than one; ask for more disks, "
+          fmt::format("sample.sizes.mixture[{}]: has {:.2g} of {} disks: less than one; ask for more disks, "
                       "or for a larger share",
-                      k + 1, share[k] / sum * count, count));
+                      k, share[k] / sum * count, count));
   }
   return numbers;
 }

@@ -46,7 +46,7 @@ void refuse_bad_pairs(const std::vector<Vec2>& pairs, const std::string& key) {
 }
 
 bool holds(const LayerScene& layer, const Box& box, const Vec2& p) {
-  if (!layer.polygon.empty()) return Domain{{layer.polygon}, {}, 0}.contains(p);
+  if (!layer.polygon.empty()) return Domain{{layer.polygon}, {}, {}, 0}.contains(p);
   const double at = position(layer.along, box, p);
   return layer.from <= at && at < layer.to;
 }

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "generator/sample/errors.h"
+#include "generator/sample/h5_chunks.h"
 #include "generator/sample/h5_driver.h"
 
 namespace lamella::h5 {
@@ -88,15 +89,6 @@ struct Stored<std::uint8_t> {
   static hid_t memory() { return H5T_NATIVE_UINT8; }
 };
 
-/// Properties of a new array: shuffled and deflated in chunks when large and asked for.
-void set_storage(hid_t properties, const std::array<hsize_t, 2>& shape, int rank, std::size_t row_bytes) {
-  const hsize_t chunk_rows = std::clamp<hsize_t>(kChunkBytes / row_bytes, 1, shape[0]);
-  const std::array<hsize_t, 2> chunk{chunk_rows, shape[1]};
-  H5Pset_chunk(properties, rank, chunk.data());
-  H5Pset_shuffle(properties);
-  H5Pset_deflate(properties, 1);
-}
-
 /// False when the library or the disk refuses.
 template <typename T>
 bool write_array(hid_t group, const std::string& where, const std::string& name, const std::vector<T>& data,
@@ -111,11 +103,15 @@ bool write_array(hid_t group, const std::string& where, const std::string& name,
   const Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
   if (!space.valid() || !creation.valid() || !access.valid()) return false;
   H5Pset_chunk_cache(access.get(), 0, 0, 1);  // every chunk is written once, so there is nothing to keep
-  if (storage == Storage::compressed && data.size() * sizeof(T) > kPlainBytes)
-    set_storage(creation.get(), shape, rank, sizeof(T) * static_cast<std::size_t>(columns));
+  const Rows rows{data.data(), shape[0], sizeof(T) * static_cast<std::size_t>(columns), sizeof(T)};
+  const bool in_chunks = storage == Storage::compressed && data.size() * sizeof(T) > kPlainBytes;
+  const std::size_t chunk_rows =
+      std::clamp<std::size_t>(kChunkBytes / rows.row_bytes, 1, std::max<hsize_t>(shape[0], 1));
+  if (in_chunks) set_chunks(creation.get(), chunk_rows, shape[1], rank);
   const Handle array(
       H5Dcreate2(group, name.c_str(), Stored<T>::disk(), space.get(), H5P_DEFAULT, creation.get(), access.get()),
       H5Dclose);
+  if (in_chunks) return array.valid() && write_chunks(array.get(), rows, chunk_rows);
   return array.valid() &&
          (data.empty() || H5Dwrite(array.get(), Stored<T>::memory(), H5S_ALL, H5S_ALL, H5P_DEFAULT, data.data()) >= 0);
 }

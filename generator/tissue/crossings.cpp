@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "generator/sample/parallel.h"
+
 namespace lamella {
 namespace {
 
@@ -112,26 +114,32 @@ void Grid::add(int item, const Vec2& lo, const Vec2& hi) {
 }
 
 std::vector<Crossing> find_crossings(const std::vector<OwnedSegment>& segments, std::size_t most) {
-  std::vector<Crossing> found;
-  if (segments.empty()) return found;
+  constexpr std::size_t kPiece = 1 << 14;
+  if (segments.empty()) return {};
   const Bins bins(segments);
-  std::vector<int> crossed;
-  for (std::size_t i = 0; i < segments.size(); ++i) {
-    const OwnedSegment& s = segments[i];
-    crossed.clear();
-    bins.visit_lower(static_cast<int>(i), [&](int other) {
-      if (other == s.before || other == s.after) return;
-      const OwnedSegment& t = segments[other];
-      if (boxes_apart(s, t) || !cross_properly(s, t)) return;
-      crossed.push_back(other);
-    });
-    std::sort(crossed.begin(), crossed.end());
-    crossed.erase(std::unique(crossed.begin(), crossed.end()), crossed.end());
-    for (const int other : crossed) {
-      found.push_back({other, static_cast<int>(i)});
-      if (found.size() >= most) return found;
+  std::vector<std::vector<Crossing>> pieces((segments.size() + kPiece - 1) / kPiece);
+  for_pieces(segments.size(), kPiece, [&](std::size_t begin, std::size_t end) {
+    std::vector<Crossing>& found = pieces[begin / kPiece];
+    for (std::size_t i = begin; i < end && found.size() < most; ++i) {
+      const OwnedSegment& s = segments[i];
+      const auto first = static_cast<std::ptrdiff_t>(found.size());
+      bins.visit_lower(static_cast<int>(i), [&](int other) {
+        if (other == s.before || other == s.after) return;
+        const OwnedSegment& t = segments[other];
+        if (boxes_apart(s, t) || !cross_properly(s, t)) return;
+        found.push_back({other, static_cast<int>(i)});
+      });
+      // Bins may have shown one more than once.
+      std::sort(found.begin() + first, found.end(),
+                [](const Crossing& a, const Crossing& b) { return a.first < b.first; });
+      found.erase(std::unique(found.begin() + first, found.end(),
+                              [](const Crossing& a, const Crossing& b) { return a.first == b.first; }),
+                  found.end());
     }
-  }
+  });
+  std::vector<Crossing> found;
+  for (const auto& piece : pieces) found.insert(found.end(), piece.begin(), piece.end());
+  if (found.size() > most) found.resize(most);
   return found;
 }
 

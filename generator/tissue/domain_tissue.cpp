@@ -134,15 +134,15 @@ class Sharing {
 
 std::string place_of(const Vec2& p) { return fmt::format("({:.6g}, {:.6g})", p.x(), p.y()); }
 
-void refuse_lone_holes(const Overlay& o, const Tessellation& t) {
+void refuse_lone_holes(const Overlay& o, const Tessellation& t, const std::vector<std::string>& keys) {
   std::vector<std::string> faults;
   for (const Piece& piece : o.pieces)
     if (piece.lone_loop > 0)
-      faults.push_back(
-          fmt::format("sample.domain.holes: hole {} lies within the cell of site {}, which cannot have a hole: make it "
-                      "larger, move "
-                      "it, leave it out, or ask for more cells",
-                      piece.lone_loop - 1, t.tiles[piece.tile].site));
+      faults.push_back(fmt::format(
+          "{}: lies within the cell of site {}, which cannot have a hole: make it larger, move it, leave "
+          "it out, or ask for more cells",
+          keys.empty() ? fmt::format("sample.domain.holes[{}]", piece.lone_loop - 1) : keys[piece.lone_loop],
+          t.tiles[piece.tile].site));
   if (!faults.empty()) throw SceneError(faults);
 }
 
@@ -201,9 +201,9 @@ Box box_around(const Loops& loops, const std::vector<Disk>& disks) {
 }
 
 DomainTissue clip_tiles(const Tessellation& tessellation, const Loops& loops, const LaguerreOptions& options,
-                        std::vector<std::string>& notes) {
+                        std::vector<std::string>& notes, const std::vector<std::string>& keys) {
   const Overlay o = overlay(tessellation, loops);
-  refuse_lone_holes(o, tessellation);
+  refuse_lone_holes(o, tessellation, keys);
   if (o.moved)
     notes.push_back(
         "the boundary of the domain passes through a vertex or along a wall of the tissue: such coincidences were "

@@ -25,9 +25,9 @@ Box box_around(const Loops& loops, const std::vector<Disk>& disks);
 
 /// Clips the tiles, which cover the domain. The box of the mosaic encloses the outer loop, loops[0]. Pieces of at most
 /// 1e-7 mean cell areas are no cells. Throws SceneError: a site whose tile has no part in the domain, a hole that lies
-/// within one tile. Notes say which pieces went where, and whether coincidences had to be decided.
+/// within one tile, by its name in `keys`. Notes say which pieces went where, and whether coincidences had to be decided.
 DomainTissue clip_tiles(const Tessellation& tessellation, const Loops& loops, const LaguerreOptions& options,
-                        std::vector<std::string>& notes);
+                        std::vector<std::string>& notes, const std::vector<std::string>& keys = {});
 
 /// Collapses edges not longer than `threshold` [m], shortest first, to one vertex that all their cells share; corners of the domain
 /// stay, vertices on its boundary stay on it, and areas still sum to the domain's. What cannot be welded under these

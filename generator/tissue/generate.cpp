@@ -14,6 +14,7 @@
 #include "generator/packing/variation.h"
 #include "generator/packing/weld.h"
 #include "generator/sample/errors.h"
+#include "generator/sample/scene_place.h"
 #include "generator/tissue/bricks.h"
 #include "generator/tissue/cell_areas.h"
 #include "generator/tissue/image_tissue.h"
@@ -159,12 +160,7 @@ void check(const Sample& sample, const SampleScene& asked) {
   throw SceneError(violations);
 }
 
-}  // namespace
-
-Sample generate(const Scene& scene, Notes& notes, const std::function<void(double, const std::string&)>& progress,
-                Origin* origin) {
-  Origin unasked;
-  Origin& from = origin ? *origin : unasked;
+Sample generated(const Scene& scene, Notes& notes, const Progress& progress, Origin& from) {
   const SampleScene& asked = scene.sample;
   Sample sample;
   if (asked.kind == "tissue") {
@@ -204,6 +200,18 @@ Sample generate(const Scene& scene, Notes& notes, const std::function<void(doubl
   check(sample, asked);
   if (progress) progress(1, "done");
   return sample;
+}
+
+}  // namespace
+
+Sample generate(const Scene& scene, Notes& notes, const std::function<void(double, const std::string&)>& progress,
+                Origin* origin) {
+  Origin unasked;
+  try {
+    return generated(scene, notes, progress, origin ? *origin : unasked);
+  } catch (const SceneError& error) {
+    throw SceneError(with_places(scene, error.faults()));
+  }
 }
 
 }  // namespace lamella

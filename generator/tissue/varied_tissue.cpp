@@ -78,7 +78,7 @@ Mosaic make_domain_mosaic(const Scene& scene, Notes& notes, const TissueProgress
       notes.push_back(fmt::format("{} edges of at most {:.3g} m welded to a point, inside the domain or beside it",
                                   origin.welded, threshold));
   }
-  DomainTissue tissue = clip_tiles(tiles, squeezed_domain.loops, options, notes);
+  DomainTissue tissue = clip_tiles(tiles, squeezed_domain.loops, options, notes, domain.keys);
   draw_out(tissue, map, domain.box);
   const auto before = areas_of(tissue);
   origin.hidden = static_cast<Index>(tiles.hidden.size());

@@ -6,128 +6,14 @@
 #include <cmath>
 
 #include "generator/sample/errors.h"
-#include "generator/tissue/inset.h"
+#include "generator/sample/parallel.h"
+#include "generator/tissue/inset_sides.h"
 
 namespace lamella {
 namespace {
 
 /// Below this fraction of the spacing two sides do not face each other in any useful sense: no link.
 constexpr double kLeastOverlap = 0.05;
-
-/// One edge of a cell, moved inwards, and the part of it that faces another cell. Positions along it are measured from
-/// its first vertex.
-struct InsetSide {
-  Vec2 start = Vec2::Zero(), along = Vec2::Zero();
-  double from = 0, to = 0;   // between the inset corners
-  bool present = false;      // has not vanished
-  double low = 0, high = 0;  // facing part; low > high: none
-  Index first_pair = -1;     // of this edge, in the order of the cell of lower index
-  Index pairs = 0;
-  bool faces() const { return pairs > 0; }
-};
-
-using Sides = std::vector<std::vector<InsetSide>>;
-
-Sides inset_sides(const Mosaic& mosaic, const std::vector<double>& distances, Notes& notes) {
-  Sides sides(mosaic.cells.size());
-  std::vector<std::string> vanished, split, lost;
-  double thinnest = 1e300;          // of what vanishes, relative to how far its walls move in
-  double distance = 0, widest = 0;  // of what vanishes first, and of what falls apart
-  for (std::size_t c = 0; c < mosaic.cells.size(); ++c) {
-    const auto polygon = polygon_of(mosaic, mosaic.cells[c]);
-    const Inset inset = inset_polygon(polygon, distances[c]);
-    if (inset.outcome == Inset::Outcome::vanished) {
-      vanished.push_back(mosaic.cells[c].name);
-      if (const double bearable = vanishing_distance(polygon) / distances[c]; bearable < thinnest) {
-        thinnest = bearable;
-        distance = distances[c];
-      }
-    }
-    if (inset.outcome == Inset::Outcome::split) {
-      split.push_back(mosaic.cells[c].name);
-      widest = std::max(widest, distances[c]);
-    }
-    auto& of_cell = sides[c];
-    of_cell.resize(polygon.size());
-    for (std::size_t k = 0; k < polygon.size(); ++k) {
-      of_cell[k].start = polygon[k];
-      of_cell[k].along = (polygon[(k + 1) % polygon.size()] - polygon[k]).normalized();
-    }
-    for (const InsetEdge& edge : inset.edges) {
-      of_cell[edge.edge].from = edge.from;
-      of_cell[edge.edge].to = edge.to;
-      of_cell[edge.edge].present = true;
-    }
-    if (inset.outcome == Inset::Outcome::whole && inset.edges.size() < polygon.size())
-      for (std::size_t k = 0; k < polygon.size(); ++k)
-        if (!of_cell[k].present) lost.push_back(fmt::format("edge {} of {}", k, mosaic.cells[c].name));
-  }
-  std::vector<std::string> faults;
-  if (!vanished.empty())
-    faults.push_back(
-        fmt::format("{} vanish when walls move in by radius + gap / 2 = {:.4g} m; at most {:.4g} m would "
-                    "leave every cell",
-                    listed(vanished), distance, thinnest * distance));
-  if (!split.empty())
-    faults.push_back(
-        fmt::format("{}: concave, and narrower somewhere than twice radius + gap / 2 = {:.4g} m: choose a "
-                    "smaller radius",
-                    listed(split), widest));
-  if (!faults.empty()) throw SceneError(faults);
-  if (!lost.empty()) notes.push_back(fmt::format("{} edges vanish by the inset: {}", lost.size(), listed(lost)));
-  return sides;
-}
-
-/// Length of the whole edge `s`, whose other side `o` lies where it borders s when it is displaced.
-double edge_length(const InsetSide& s, const InsetSide& o, const Vec2& displaced) {
-  return (o.start + displaced - s.start).dot(s.along);  // o runs the other way, from the end of s
-}
-
-/// Facing part of an edge `s` of this length and of its other side `o`, in the positions of `s`.
-void overlap(const InsetSide& s, const InsetSide& o, double length, double& low, double& high) {
-  low = std::max(s.from, length - o.to);
-  high = std::min(s.to, length - o.from);
-}
-
-double mean_overlap(const Sides& sides, const std::vector<std::vector<EdgePlace>>& opposite, const Box& box) {
-  double sum = 0;
-  Index count = 0;
-  for (std::size_t c = 0; c < sides.size(); ++c) {
-    for (std::size_t k = 0; k < sides[c].size(); ++k) {
-      const EdgePlace there = opposite[c][k];
-      if (!comes_first(static_cast<Index>(c), there) || !sides[c][k].present) continue;
-      const InsetSide& across = sides[there.cell][there.edge];
-      if (!across.present) continue;
-      double low, high;
-      overlap(sides[c][k], across, edge_length(sides[c][k], across, displacement(there.image, box)), low, high);
-      if (high > low) {
-        sum += high - low;
-        ++count;
-      }
-    }
-  }
-  if (count > 0) return sum / count;
-  for (const auto& cell : sides)
-    for (const InsetSide& side : cell)
-      if (side.present) {
-        sum += side.to - side.from;
-        ++count;
-      }
-  return sum / std::max<Index>(1, count);
-}
-
-/// A spacing in the wrong unit would ask for more mass points than indices or memory can hold.
-void refuse_too_many(const Sides& sides, double spacing) {
-  double length = 0;
-  for (const auto& cell : sides)
-    for (const InsetSide& side : cell) length += side.present ? side.to - side.from : 0;
-  constexpr double most = 2e8;
-  if (!(length / spacing < most))
-    throw SceneError(
-        fmt::format("sample.walls.spacing: {:.4g} m on {:.4g} m of walls makes {:.3g} mass points; at most "
-                    "{:.0g} are possible, so at least {:.3g} m",
-                    spacing, length, length / spacing, most, length / most));
-}
 
 /// Places the pairs of one wall piece. Returns how many.
 Index add_pairs(double length, double spacing, Bonding& bonding) {
@@ -261,6 +147,44 @@ class OutlineWriter {
   Outline& outline_;
 };
 
+/// The candidates for mass points of a cell: corners of its inset sides, facing points, and what fills the rest.
+Outline outline_of(const Mosaic& mosaic, Index c, const std::vector<EdgePlace>& opposite,
+                   const std::vector<InsetSide>& sides, double distance, double spacing) {
+  const MosaicCell& cell = mosaic.cells[c];
+  Outline outline;
+  outline.name = cell.name;
+  outline.tile_area = polygon_area(polygon_of(mosaic, cell));
+  const std::size_t count = sides.size();
+  std::uint8_t bits_before = 0;
+  for (std::size_t k = count; k-- > 0 && bits_before == 0;)
+    if (sides[k].present) {
+      bits_before = cell.side[k];
+      break;
+    }
+  for (std::size_t k = 0; k < count; ++k) {
+    const InsetSide& side = sides[k];
+    if (!side.present) continue;
+    const bool first_cell = comes_first(c, opposite[k]);
+    OutlineWriter writer(side, distance, spacing, cell.side[k], first_cell, outline);
+    writer.corner(bits_before);
+    bits_before = cell.side[k];
+    if (!side.faces()) {
+      writer.fill(side.from, side.to);
+      continue;
+    }
+    writer.fill(side.from, side.low);
+    for (Index p = 0; p < side.pairs; ++p) {
+      const double share = side.pairs > 1 ? static_cast<double>(p) / (side.pairs - 1) : 0.5;
+      // Measured from the end that both cells measure from, so that the two points of a pair face each other exactly.
+      const double position =
+          first_cell ? side.low + share * (side.high - side.low) : side.high - (1 - share) * (side.high - side.low);
+      writer.matched(position, side.first_pair + (first_cell ? p : side.pairs - 1 - p));
+    }
+    writer.fill(side.high, side.to);
+  }
+  return outline;
+}
+
 }  // namespace
 
 Bonding face_walls(const Mosaic& mosaic, const WallsScene& walls, double radius, Notes& notes) {
@@ -280,41 +204,10 @@ Bonding face_walls(const Mosaic& mosaic, const WallsScene& walls, const std::vec
   choose_links(walls.links, bonding);
 
   bonding.cells.resize(mosaic.cells.size());
-  for (std::size_t c = 0; c < mosaic.cells.size(); ++c) {
-    const MosaicCell& cell = mosaic.cells[c];
-    Outline& outline = bonding.cells[c];
-    outline.name = cell.name;
-    const auto polygon = polygon_of(mosaic, cell);
-    outline.tile_area = polygon_area(polygon);
-    const std::size_t count = polygon.size();
-    std::uint8_t bits_before = 0;
-    for (std::size_t k = count; k-- > 0 && bits_before == 0;)
-      if (sides[c][k].present) {
-        bits_before = cell.side[k];
-        break;
-      }
-    for (std::size_t k = 0; k < count; ++k) {
-      const InsetSide& side = sides[c][k];
-      if (!side.present) continue;
-      const bool first_cell = comes_first(static_cast<Index>(c), opposite[c][k]);
-      OutlineWriter writer(side, distance[c], bonding.spacing, cell.side[k], first_cell, outline);
-      writer.corner(bits_before);
-      bits_before = cell.side[k];
-      if (!side.faces()) {
-        writer.fill(side.from, side.to);
-        continue;
-      }
-      writer.fill(side.from, side.low);
-      for (Index p = 0; p < side.pairs; ++p) {
-        const double share = side.pairs > 1 ? static_cast<double>(p) / (side.pairs - 1) : 0.5;
-        // Measured from the end that both cells measure from, so that the two points of a pair face each other exactly.
-        const double position =
-            first_cell ? side.low + share * (side.high - side.low) : side.high - (1 - share) * (side.high - side.low);
-        writer.matched(position, side.first_pair + (first_cell ? p : side.pairs - 1 - p));
-      }
-      writer.fill(side.high, side.to);
-    }
-  }
+  for_pieces(mosaic.cells.size(), kCellsOfPiece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t c = begin; c < end; ++c)
+      bonding.cells[c] = outline_of(mosaic, static_cast<Index>(c), opposite[c], sides[c], distance[c], bonding.spacing);
+  });
   return bonding;
 }
 

@@ -1,27 +1,42 @@
-// Times what `lamella generate` does, stage by stage, on one thread.
-//   tissue_stages SCENE SAMPLE [section.key=value ...]
+// Times what `lamella generate` does, stage by stage, on some threads: seconds of the wall clock and of all processors.
+//   tissue_stages SCENE SAMPLE THREADS [section.key=value ...]
 #include <string>
 
 #include "generator/generate.h"
+#include "generator/sample/parallel.h"
 #include "generator/tissue/mosaic_file.h"
 #include "pipelines/performance/timed.h"
 
 namespace lamella {
 namespace {
 
+struct Times {
+  double wall = 0, processor = 0;  // [s]
+};
+
+Times times() {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return {static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec), processor_seconds()};
+}
+
+void print(const std::string& stage, const Times& from, const Times& to) {
+  fmt::print("{0} {1:.6g}\n{0}_wall {2:.6g}\n", stage, to.processor - from.processor, to.wall - from.wall);
+}
+
 /// Stages begin where the generator says so.
 class Stages {
  public:
   void begin(const std::string& stage) {
-    const double now = processor_seconds();
-    if (!stage_.empty()) fmt::print("{} {:.6g}\n", stage_, now - start_);
+    const Times now = times();
+    if (!stage_.empty()) print(stage_, start_, now);
     stage_ = stage;
     start_ = now;
   }
 
  private:
   std::string stage_;
-  double start_ = 0;
+  Times start_;
 };
 
 void run(const char* path, const char* out, const std::vector<std::string>& overrides) {
@@ -29,7 +44,7 @@ void run(const char* path, const char* out, const std::vector<std::string>& over
   Stages stages;
   Notes notes;
   Origin origin;
-  const double start = processor_seconds();
+  const Times start = times();
   stages.begin("packing");
   const Sample sample = generate(
       scene, notes,
@@ -41,8 +56,8 @@ void run(const char* path, const char* out, const std::vector<std::string>& over
   stages.begin("writing");
   write_sample(out, sample, origin.tiles);
   stages.begin("");
-  fmt::print("whole {:.6g}\ncells {}\npoints {}\nmegabytes {:.1f}\nfile {:.1f}\n", processor_seconds() - start,
-             sample.cells(), sample.nodes(), peak_megabytes(),
+  print("whole", start, times());
+  fmt::print("cells {}\npoints {}\nmegabytes {:.1f}\nfile {:.1f}\n", sample.cells(), sample.nodes(), peak_megabytes(),
              1e-6 * static_cast<double>(std::filesystem::file_size(out)));
 }
 
@@ -50,12 +65,13 @@ void run(const char* path, const char* out, const std::vector<std::string>& over
 }  // namespace lamella
 
 int main(int count, char** arguments) {
-  if (count < 3) {
-    fmt::print(stderr, "tissue_stages: SCENE SAMPLE, then key=value\n");
+  if (count < 4) {
+    fmt::print(stderr, "tissue_stages: SCENE SAMPLE THREADS, then key=value\n");
     return 2;
   }
   try {
-    lamella::run(arguments[1], arguments[2], {arguments + 3, arguments + count});
+    lamella::use_threads(std::stoi(arguments[3]));
+    lamella::run(arguments[1], arguments[2], {arguments + 4, arguments + count});
   } catch (const std::exception& e) {
     fmt::print(stderr, "tissue_stages: {}\n", e.what());
     return 2;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "generator/sample/errors.h"
+#include "generator/sample/parallel.h"
 #include "generator/sample/sample_file.h"
 #include "generator/tissue/mosaic_file.h"
 #include "pipelines/program/accurate_run.h"
@@ -122,7 +123,9 @@ Scene load_scene(const SceneArguments& arguments) {
   if (arguments.seed) settings.push_back(fmt::format("seed={}", *arguments.seed));
   if (arguments.accuracy) settings.push_back(fmt::format("run.accuracy={}", *arguments.accuracy));
   if (arguments.threads) settings.push_back(fmt::format("run.threads={}", *arguments.threads));
-  return read_scene(arguments.scene, settings);
+  Scene scene = read_scene(arguments.scene, settings);
+  use_threads(scene.stages.front().run.threads);
+  return scene;
 }
 
 void simulate_command(const SceneArguments& arguments, const fs::path& sample_path, const fs::path& out,

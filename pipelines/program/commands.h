@@ -19,7 +19,7 @@ struct SceneArguments {
   std::optional<std::string> accuracy;  // "1%", "0.01"
 };
 
-/// Reads and validates the scene with --set, --seed, --threads and --accuracy over it.
+/// Reads and validates the scene with --set, --seed, --threads and --accuracy over it. Its threads are in use from then on.
 Scene load_scene(const SceneArguments& arguments);
 
 enum class Beginning { afresh, resumed };

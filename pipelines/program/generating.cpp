@@ -7,6 +7,7 @@
 
 #include "generator/sample/errors.h"
 #include "generator/sample/h5.h"
+#include "generator/sample/parallel.h"
 #include "generator/sample/sample_file.h"
 #include "generator/tissue/mosaic_file.h"
 #include "pipelines/program/interrupt.h"
@@ -92,6 +93,7 @@ Sample generate_sample(const Scene& scene, Progress& progress, Origin* origin, N
 
 void generate_command(const GenerateArguments& arguments, Verbosity verbosity) {
   const Scene scene = load_scene(arguments.scene);
+  if (arguments.threads) use_threads(*arguments.threads);
   require_writable_file(arguments.out);
   for (const fs::path& path : arguments.exports) require_export(path);
   if (!arguments.report.empty()) require_writable_folder(arguments.report);

@@ -1,6 +1,7 @@
 // The subcommands that make samples and hand them to other programs.
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@ struct GenerateArguments {
   std::filesystem::path out;                   // the sample
   std::vector<std::filesystem::path> exports;  // tiles (or outlines) for other programs, formats by their endings
   std::filesystem::path report;                // folder; empty: no report
+  std::optional<int> threads;                  // instead of the scene's; a scene that has no run can say none
 };
 void generate_command(const GenerateArguments& arguments, Verbosity verbosity);
 

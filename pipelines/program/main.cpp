@@ -25,6 +25,7 @@ struct Arguments {
   std::filesystem::path out, sample, trajectory, accuracy;
   std::vector<std::filesystem::path> runs, exports;
   std::filesystem::path report;
+  std::optional<int> threads;
   std::string of;
   std::string seeds;
   int jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
@@ -56,7 +57,8 @@ CLI::Option* add_out(CLI::App* command, Arguments& arguments, const char* senten
 }
 
 void add_running(CLI::App* command, Arguments& arguments) {
-  command->add_option("--threads", arguments.scene.threads, "Threads of the run; the result does not depend on it");
+  command->add_option("--threads", arguments.scene.threads,
+                      "Threads, of the generator too; the result does not depend on it");
   command->add_flag("--resume", arguments.resume, "Go on from the last frame of an interrupted run");
 }
 
@@ -98,6 +100,8 @@ int run_program(int argc, char** argv) {
   generate->add_option("--export", a.exports, fmt::format("Cells for other programs as well: {}", kExportEndings))
       ->allow_extra_args(false);
   generate->add_option("--report", a.report, "Folder for statistics of the sample, with pictures");
+  generate->add_option("--threads", a.threads, "Threads of the generator; the result does not depend on it")
+      ->check(CLI::Range(1, 256));
   add_quiet(generate, a);
 
   CLI::App* simulate =
@@ -179,7 +183,7 @@ int run_program(int argc, char** argv) {
     else if (run->parsed())
       run_command(a.scene, a.out, a.beginning(), a.verbosity());
     else if (generate->parsed())
-      generate_command({a.scene, a.out, a.exports, a.report}, a.verbosity());
+      generate_command({a.scene, a.out, a.exports, a.report, a.threads}, a.verbosity());
     else if (simulate->parsed())
       simulate_command(a.scene, a.sample, a.out, a.beginning(), a.verbosity());
     else if (extract->parsed())

@@ -8,8 +8,8 @@
 #pragma once
 #include <vector>
 
+#include "generator/sample/team.h"
 #include "simulator/steppers/stepper.h"
-#include "simulator/steppers/team.h"
 
 namespace lamella {
 

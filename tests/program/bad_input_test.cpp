@@ -46,6 +46,7 @@ TEST_F(bad_input, arguments_that_are_not_understood_exit_2) {
   EXPECT_THAT(run(kHoneycomb, "--seeds 3-1"), ends_with(2, "not a range"));
   EXPECT_THAT(run(kHoneycomb, "--seed -1"), ends_with(2, "--seed"));
   EXPECT_THAT(run(kHoneycomb, "--threads 0"), ends_with(2, "run.threads: 0 is out of range"));
+  EXPECT_THAT(lamella_program("generate x.toml -o y --threads 0"), ends_with(2, "--threads"));
 }
 
 TEST_F(bad_input, folders_that_are_no_studies_are_named_all_at_once) {

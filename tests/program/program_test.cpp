@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "generator/sample/sample_file.h"
 #include "generator/sample/scene.h"
 #include "tests/program/program.h"
 #include "tests/support/temporary_folder.h"
@@ -56,6 +57,23 @@ TEST_F(program, run_is_generate_simulate_and_post) {
       lamella_program("simulate " + scene + " -q --sample " + at("sample.h5") + " -o " + at("trajectory.h5")).said, "");
   ASSERT_EQ(lamella_program("post " + at("trajectory.h5") + " -q -o " + at("parts")).said, "");
   EXPECT_EQ(read_file(folder / "parts" / "response.csv"), read_file(folder / "all" / "response.csv"));
+}
+
+TEST_F(program, generate_makes_the_same_cells_on_any_number_of_threads) {
+  const std::string tissue =
+      write_file(folder / "tissue.toml",
+                 "[sample]\nkind = \"tissue\"\npacking = { count = 3000, fraction = 0.7 }\nwalls = { segments = 4 }\n"
+                 "sizes = { distribution = \"lognormal\", mean = 1, cv = 0.3 }\n[cells]\nthickness = 0.05\n");
+  for (const std::string threads : {"1", "2", "3"})
+    ASSERT_EQ(lamella_program("generate " + tissue + " -q --threads " + threads + " -o " + at(threads + ".h5") +
+                              " --export " + at(threads + ".off"))
+                  .said,
+              "");
+  EXPECT_EQ(read_file(folder / "1.off"), read_file(folder / "2.off"));
+  EXPECT_EQ(read_file(folder / "1.off"), read_file(folder / "3.off"));
+  const Sample one = read_sample(folder / "1.h5"), three = read_sample(folder / "3.h5");
+  EXPECT_EQ(one.x, three.x);
+  EXPECT_EQ(one.rest_angle, three.rest_angle);
 }
 
 TEST_F(program, extract_makes_a_frame_the_sample_of_other_scenes) {

@@ -164,6 +164,9 @@ TEST_F(Pictures, truncated_png_and_tiff_are_refused) {
   for (const bool interlaced : {false, true}) {
     write_png(folder / "a.png", picture, {.bits = 16, .interlaced = interlaced});
     expect_no_prefix_is_read(folder / "a.png", folder / "cut.png");
+    write(folder / "cut.png", contents(folder / "a.png").substr(0, contents(folder / "a.png").size() / 2));
+    EXPECT_THAT(message_of([&] { read_picture(folder / "cut.png", Colours::kRefuse); }),
+                HasSubstr("cut.png: is truncated: it ends within the picture; it must be a whole PNG"));
   }
   write_tiff(folder / "a.tif", picture, {});
   expect_no_prefix_is_read(folder / "a.tif", folder / "cut.tif");

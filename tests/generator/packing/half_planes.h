@@ -1,5 +1,6 @@
 // Oracle for diagrams: the tile of a site as what the half-planes of all other sites, and of all their images, leave.
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -19,7 +20,8 @@ inline std::vector<Vec2> cut_off(const std::vector<Vec2>& polygon, const Vec2& d
   return kept;
 }
 
-/// In coordinates about the site. Along periodic axes images displaced by up to two lengths take part, the site's own too.
+/// In coordinates about the site. Along periodic axes images displaced by up to two lengths take part, the site's own too,
+/// the nearest first: what they leave is soon so small that far ones need not be cut by.
 inline std::vector<Vec2> half_plane_tile(const std::vector<Disk>& disks, const Box& box, const Periodic& periodic,
                                          std::size_t i) {
   const Vec2 o = disks[i].centre, size = box.size();
@@ -28,21 +30,33 @@ inline std::vector<Vec2> half_plane_tile(const std::vector<Disk>& disks, const B
     if (periodic[axis]) lo[axis] = -size[axis], hi[axis] = size[axis];
   std::vector<Vec2> polygon = {lo, Vec2(hi.x(), lo.y()), hi, Vec2(lo.x(), hi.y())};
   const double own = disks[i].radius * disks[i].radius;
-  const int columns = periodic[0] ? 2 : 0, rows = periodic[1] ? 2 : 0;
-  double extent = 2 * (size.x() + size.y());  // of the polygon: no corner is further from the site
-  for (int row = -rows; row <= rows; ++row) {
-    for (int column = -columns; column <= columns; ++column) {
-      for (std::size_t j = 0; j < disks.size() && !polygon.empty(); ++j) {
-        if (j == i && row == 0 && column == 0) continue;
-        const Vec2 d = disks[j].centre - o + Vec2(column * size.x(), row * size.y());
-        const double weight = disks[j].radius * disks[j].radius - own;
-        const double distance = d.norm();
-        // Where |p| <= R the other power is the smaller one nowhere.
-        if (distance > extent && (distance - extent) * (distance - extent) > extent * extent + weight) continue;
-        polygon = cut_off(polygon, d, (distance * distance - weight) / 2);
-        extent = 0;
-        for (const Vec2& p : polygon) extent = std::max(extent, p.norm());
-      }
+  double largest = 0;
+  Box all{o, o};
+  for (const Disk& disk : disks) {
+    largest = std::max(largest, disk.radius * disk.radius);
+    all = {all.lo.cwiseMin(disk.centre), all.hi.cwiseMax(disk.centre)};
+  }
+  // Beyond this distance the power of no disk is the smaller one anywhere in the polygon, where |p| <= extent.
+  const auto reach_of = [&](double extent) {
+    return (1 + 1e-9) * (extent + std::sqrt(std::max(0.0, extent * extent + largest - own)));
+  };
+  double reach = reach_of(2 * (size.x() + size.y()));
+  std::vector<Vec2> images;
+  for (int row = periodic[1] ? -2 : 0; row <= (periodic[1] ? 2 : 0); ++row)
+    for (int column = periodic[0] ? -2 : 0; column <= (periodic[0] ? 2 : 0); ++column)
+      images.emplace_back(column * size.x(), row * size.y());
+  std::stable_sort(images.begin(), images.end(), [](const Vec2& a, const Vec2& b) { return a.norm() < b.norm(); });
+  for (const Vec2& image : images) {
+    const Vec2 beside = (all.lo + image - o).cwiseMax(o - all.hi - image).cwiseMax(0.0);
+    if (beside.norm() > reach) continue;  // the image of all disks
+    for (std::size_t j = 0; j < disks.size() && !polygon.empty(); ++j) {
+      if (j == i && image.isZero()) continue;
+      const Vec2 d = disks[j].centre - o + image;
+      if (d.squaredNorm() > reach * reach) continue;
+      polygon = cut_off(polygon, d, (d.squaredNorm() + own - disks[j].radius * disks[j].radius) / 2);
+      double extent = 0;
+      for (const Vec2& p : polygon) extent = std::max(extent, p.norm());
+      reach = reach_of(extent);
     }
   }
   return polygon;

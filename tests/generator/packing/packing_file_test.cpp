@@ -48,6 +48,26 @@ TEST(packing_file, reads_what_was_written_bit_for_bit) {
   }
 }
 
+TEST(packing_file, of_disks_at_one_place_the_first_may_be_kept) {
+  Packing packing;
+  packing.box = {{0, 0}, {4, 2}};
+  packing.disks = {{{1, 1}, 0.1}, {{4, 1}, 0.2}, {{1, 1}, 0.3}, {{0, 1}, 0.4}, {{1, 2}, 0.5}, {{1, 0}, 0.6}};
+  packing.target_area = {1, 2, 3, 4, 5, 6};
+  Packing torus = packing;
+  torus.periodic = {true, true};
+  keep_first_at_each_place(packing);
+  EXPECT_THAT(packing.target_area, ElementsAre(1, 2, 4, 5, 6));
+  EXPECT_THAT(packing.notes, ElementsAre(HasSubstr("1 disks left out that lie where an earlier one lies")));
+  keep_first_at_each_place(torus);
+  EXPECT_THAT(torus.target_area, ElementsAre(1, 2, 5));
+  ASSERT_THAT(torus.disks, SizeIs(3));
+  EXPECT_EQ(torus.disks[2].radius, 0.5);
+  EXPECT_THAT(torus.notes, ElementsAre(HasSubstr(": 2 as 0, 3 as 1, 5 as 4")));
+  const std::size_t notes = torus.notes.size();
+  keep_first_at_each_place(torus);
+  EXPECT_EQ(torus.notes.size(), notes);
+}
+
 TEST(packing_file, a_header_comments_blank_lines_and_other_separators_are_understood) {
   for (const char* text :
        {"x,y,r\n1,2,0.5\n3, 2,0.5\n", "# two disks\n\n1 2 0.5 # first\n3\t2\t5e-1\n", "1;2;0.5\r\n3;2;0.5\r\n"}) {

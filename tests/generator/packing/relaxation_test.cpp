@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "generator/packing/domain.h"
+#include "generator/sample/parallel.h"
 #include "random_disks.h"
 
 namespace lamella {
@@ -137,6 +138,32 @@ TEST(relaxation, disks_that_are_balanced_push_each_other_equally) {
   EXPECT_NEAR(disks.x[2].y(), 4.25, 1e-7);
   EXPECT_NEAR(state.overlap, 0.25, 1e-7);
   EXPECT_NEAR(state.pressure, (2 * 0.25 * 1 + 2 * 0.25 * 1.75) / (2 * 20), 1e-7);
+}
+
+TEST(relaxation, gives_the_same_bits_on_one_two_and_three_threads) {
+  // One disk is twenty times as large as the others: its pairs are of all threads.
+  for (const Periodic periodic : {Periodic{true, true}, Periodic{false, true}, Periodic{false, false}}) {
+    const double size = std::sqrt(24000 * 3.14 / 0.8);
+    SoftDisks first = in_box({size, size}, periodic);
+    if (!periodic[0]) first.walls = {{{0.2 * size, 0.1 * size}, {0.7 * size, 0.9 * size}}};
+    for (const Disk& disk : random_disks(24000, 1.8, 7, size, size))
+      first.x.push_back(disk.centre), first.radius.push_back(disk.radius);
+    first.radius[17] = 20;
+    std::vector<SoftDisks> found;
+    std::vector<Relaxation> states;
+    for (const int threads : {1, 2, 3}) {
+      use_threads(threads);
+      found.push_back(first);
+      states.push_back(relax(found.back(), {.clearance = 1e-3, .balance = 1e-3, .steps = 40}));
+    }
+    use_threads(1);
+    for (const std::size_t k : {1u, 2u}) {
+      EXPECT_EQ(found[k].x, found[0].x);
+      EXPECT_EQ(states[k].pressure, states[0].pressure);
+      EXPECT_EQ(states[k].overlap, states[0].overlap);
+      EXPECT_EQ(states[k].steps, states[0].steps);
+    }
+  }
 }
 
 TEST(relaxation, disks_in_one_place_do_no_harm) {

@@ -195,18 +195,18 @@ TEST(sizes, a_mixture_that_is_none_is_refused) {
   EXPECT_THAT(message_of(mixture(parts, {0.5, 0.4}, false), 10), HasSubstr("the shares sum to 0.9; must be 1"));
   EXPECT_THAT(message_of(mixture(parts, {0.5, 0.6}, true), 10), HasSubstr("the shares sum to 1.1"));
   EXPECT_THAT(message_of(mixture(parts, {1.5, -0.5}, true), 10),
-              AllOf(HasSubstr("mixture 1.area_share = 1.5"), HasSubstr("mixture 2.area_share = -0.5")));
-  EXPECT_THAT(message_of(mixture(parts, {0.5, NAN}, false), 10), HasSubstr("mixture 2.share = nan"));
-  EXPECT_THAT(message_of(mixture(parts, {0.999, 0.001}, false), 10), HasSubstr("mixture 2: has 0.01 of 10 disks"));
+              AllOf(HasSubstr("mixture[0].area_share = 1.5"), HasSubstr("mixture[1].area_share = -0.5")));
+  EXPECT_THAT(message_of(mixture(parts, {0.5, NAN}, false), 10), HasSubstr("mixture[1].share = nan"));
+  EXPECT_THAT(message_of(mixture(parts, {0.999, 0.001}, false), 10), HasSubstr("mixture[1]: has 0.01 of 10 disks"));
   SizesScene both = mixture(parts, {0.5, 0.5}, false);
   both.mixture[1].share.reset();
-  EXPECT_THAT(message_of(both, 10), HasSubstr("mixture 2: needs share"));
+  EXPECT_THAT(message_of(both, 10), HasSubstr("mixture[1]: needs share"));
   both.mixture[1].area_share = 0.5;
   EXPECT_THAT(message_of(both, 10), HasSubstr("one of them throughout"));
   SizesScene bad = mixture(parts, {0.5, 0.5}, false);
   bad.mixture[0].mean = 0, bad.mixture[0].cv = -1, bad.mixture[1].distribution = "file";
-  EXPECT_THAT(message_of(bad, 10), AllOf(HasSubstr("mixture 1.mean = 0"), HasSubstr("mixture 1.cv = -1"),
-                                         HasSubstr("mixture 2.distribution = \"file\"")));
+  EXPECT_THAT(message_of(bad, 10), AllOf(HasSubstr("mixture[0].mean = 0"), HasSubstr("mixture[0].cv = -1"),
+                                         HasSubstr("mixture[1].distribution = \"file\"")));
 }
 
 TEST(sizes, the_seed_decides_and_nothing_else) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <numeric>
 
 #include "generator/packing/random_sites.h"
@@ -13,6 +14,7 @@
 #include "generator/packing/weld.h"
 #include "generator/sample/errors.h"
 #include "generator/tissue/inset_areas.h"
+#include "tests/support/temporary_folder.h"
 
 namespace lamella {
 namespace {
@@ -226,6 +228,25 @@ TEST(CellAreas, that_a_file_states_take_the_place_of_the_disks) {
   EXPECT_THAT(message_of(packing, {}, 0), HasSubstr("disk 7 shall have a cell of 1.5 m2, there are 1 m2 in all"));
   packing.target_area[7] = -1;
   EXPECT_THAT(message_of(packing, {}, 0), HasSubstr("site 7 shall have the area -1"));
+}
+
+TEST(CellAreas, of_sites_at_one_place_are_refused_or_the_first_has_the_area) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "disks.csv") << "0.3,0.3,0.1\n0.7,0.3,0.2\n0.3,0.7,0.1\n0.7,0.7,0.1\n0.3,0.3,0.2\n";
+  Scene scene = tissue(5);
+  scene.sample.kind = "tissue";
+  scene.stages.front().cells["cells"].thickness = 0.01;
+  scene.sample.packing.file = (folder / "disks.csv").string();
+  scene.sample.width = scene.sample.height = 1;
+  Notes notes;
+  EXPECT_THROW(generate(scene, notes), SceneError);
+  scene.sample.packing.duplicates = "keep_first";
+  std::vector<double> areas = generate(scene, notes).tile_area;
+  std::sort(areas.begin(), areas.end());
+  ASSERT_EQ(areas.size(), 4u);
+  EXPECT_NEAR(areas[0], 1.0 / 7, 1e-9);
+  EXPECT_NEAR(areas[3], 4.0 / 7, 1e-9);
+  EXPECT_THAT(notes, Contains(HasSubstr("1 disks left out that lie where an earlier one lies")));
 }
 
 TEST(CellAreas, say_what_welding_has_done_to_them) {

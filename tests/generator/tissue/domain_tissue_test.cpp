@@ -111,7 +111,7 @@ TEST(DomainTissue, refuses_a_hole_within_one_cell_by_name) {
     clipped({{{0.2, 0.5}, 0.1}, {{0.8, 0.5}, 0.1}}, loops);
     FAIL() << "no error";
   } catch (const SceneError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("hole 0 lies within the cell of site 0"));
+    EXPECT_THAT(error.what(), HasSubstr("sample.domain.holes[0]: lies within the cell of site 0"));
   }
 }
 

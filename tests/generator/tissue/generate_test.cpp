@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "generator/sample/errors.h"
+#include "generator/sample/parallel.h"
 #include "tests/support/temporary_folder.h"
 
 namespace lamella {
@@ -40,6 +41,51 @@ Scene tissue(int count) {
 bool bitwise_equal(const Sample& a, const Sample& b) {
   return a.x.size() == b.x.size() && std::memcmp(a.x.data(), b.x.data(), a.x.size() * sizeof(Vec2)) == 0 &&
          a.links.size() == b.links.size() && a.cell_begin == b.cell_begin && a.side == b.side;
+}
+
+TEST(Generate, gives_the_same_bits_on_one_two_and_three_threads) {
+  for (const bool torus : {false, true}) {
+    Scene scene = tissue(4000);
+    scene.sample.sizes.cv = 0.4;
+    if (torus) scene.sample.periodic = "xy", scene.sample.areas.emplace();
+    std::vector<Sample> samples;
+    std::vector<Notes> notes(3);
+    for (const int threads : {1, 2, 3}) {
+      use_threads(threads);
+      samples.push_back(generate(scene, notes[threads - 1]));
+    }
+    use_threads(1);
+    for (const std::size_t k : {1u, 2u}) {
+      EXPECT_TRUE(bitwise_equal(samples[k], samples[0]));
+      EXPECT_EQ(samples[k].rest_angle, samples[0].rest_angle);
+      EXPECT_EQ(samples[k].tile_area, samples[0].tile_area);
+      EXPECT_EQ(notes[k], notes[0]);
+      for (std::size_t l = 0; l < samples[0].links.size(); ++l)
+        ASSERT_EQ(samples[k].links[l].offset_n, samples[0].links[l].offset_n);
+    }
+  }
+}
+
+TEST(Generate, says_on_which_line_stands_what_cannot_be_made) {
+  const auto fault_of = [](const std::string& sample) -> std::string {
+    const std::string text = "[cells]\nthickness = 0.02\n[sample]\nkind = \"tissue\"\nwalls.segments = 4\n" + sample;
+    try {
+      Notes notes;
+      generate(parse_scene(text, "s.toml"), notes);
+    } catch (const SceneError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(fault_of("packing.count = 30\npacking.fraction = 0.9\nsizes.mean = 1\n"),
+              HasSubstr("s.toml:7: sample.packing.fraction = 0.9: 30 disks of these sizes jam at about"));
+  EXPECT_THAT(fault_of("packing.count = 30\npacking.fraction = 0.7\n[sample.domain]\nkind = \"polygon\"\n"
+                       "points = [[0, 0], [1, 0], [0, 1], [1, 1]]\n"),
+              HasSubstr("s.toml:10: sample.domain.points: "));
+  EXPECT_THAT(
+      fault_of("packing.count = 30\npacking.fraction = 0.7\n[sample.sizes]\ndistribution = \"mixture\"\n"
+               "[[sample.sizes.mixture]]\nmean = 1\nshare = 0.5\n[[sample.sizes.mixture]]\nmean = 2\nshare = 0.4\n"),
+      HasSubstr("sample.sizes.mixture: the shares sum to 0.9"));
 }
 
 TEST(Tissue, that_repeats_covers_its_box_and_has_sides_only_where_it_does_not) {

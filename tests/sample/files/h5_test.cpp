@@ -10,8 +10,11 @@
 #include <cstring>
 #include <fstream>
 #include <limits>
+#include <numeric>
+#include <random>
 
 #include "generator/sample/errors.h"
+#include "generator/sample/parallel.h"
 #include "tests/support/messages.h"
 #include "tests/support/temporary_folder.h"
 
@@ -213,6 +216,45 @@ class FileSizeLimit {
   rlimit before_{};
   void (*handler_)(int) = nullptr;
 };
+
+TEST_F(H5, arrays_of_many_chunks_come_back_whatever_the_number_of_threads) {
+  // 1 MB a chunk: whole ones, a short one at the end, one row in the last, and rows wider than a value.
+  const auto some = [](std::size_t count) {
+    std::vector<double> values(count);
+    for (std::size_t k = 0; k < count; ++k) values[k] = std::sin(0.01 * static_cast<double>(k)) * 1e-3;
+    return values;
+  };
+  std::vector<std::int32_t> whole(3u << 18), odd((2u << 18) + 2);
+  std::iota(whole.begin(), whole.end(), -1000), std::iota(odd.begin(), odd.end(), 5);
+  std::vector<std::int64_t> longs(300'000);
+  std::iota(longs.begin(), longs.end(), std::int64_t{1} << 40);
+  std::vector<std::uint8_t> bytes(5'000'001);
+  for (std::size_t k = 0; k < bytes.size(); ++k) bytes[k] = static_cast<std::uint8_t>(k * k >> 8);
+  std::vector<std::uint8_t> noise(2'000'000);
+  std::mt19937 random(1);
+  for (std::uint8_t& value : noise) value = static_cast<std::uint8_t>(random());
+  for (const int threads : {1, 2, 3}) {
+    use_threads(threads);
+    h5::replace_file(path_, [&](h5::Node& file) {
+      file.write("doubles", some(1'000'000));
+      file.write("pairs", some(1'000'002), 2);
+      file.write("whole", whole);
+      file.write("odd", odd, 2);
+      file.write("longs", longs, 3);
+      file.write("bytes", bytes);
+      file.write("noise", noise);
+    });
+    const auto file = h5::Node::open(path_);
+    EXPECT_EQ(file.doubles("doubles"), some(1'000'000));
+    EXPECT_EQ(file.doubles("pairs", 2), some(1'000'002));
+    EXPECT_EQ(file.ints("whole"), whole);
+    EXPECT_EQ(file.ints("odd", 2), odd);
+    EXPECT_EQ(file.longs("longs", 3), longs);
+    EXPECT_EQ(file.bytes("bytes"), bytes);
+    EXPECT_EQ(file.bytes("noise"), noise);
+  }
+  use_threads(1);
+}
 
 TEST_F(H5, a_file_that_cannot_be_written_leaves_the_one_before_it) {
   const auto write = [&](double value, std::size_t rows) {

@@ -1,4 +1,4 @@
-#include "simulator/steppers/team.h"
+#include "generator/sample/team.h"
 
 namespace lamella {
 

@@ -1,4 +1,4 @@
-#include "simulator/steppers/team.h"
+#include "generator/sample/team.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@ TEST(Team, threads_that_meet_see_what_the_others_wrote_before) {
   for (const int size : {1, 2, 3}) {
     Team team(size);
     std::vector<int> written(size, 0), seen(size, 0);
-    for (int round = 1; round <= 2000; ++round) {
+    for (int round = 1; round <= 300; ++round) {
       team.run([&](int thread) {
         written[thread] = round;
         team.meet();
@@ -17,14 +17,14 @@ TEST(Team, threads_that_meet_see_what_the_others_wrote_before) {
         team.meet();
       });
     }
-    for (const int count : seen) EXPECT_EQ(count, 2000 * size);
+    for (const int count : seen) EXPECT_EQ(count, 300 * size);
   }
 }
 
 TEST(Team, work_is_done_when_run_returns) {
   Team team(2);
   std::vector<int> done(2, 0);
-  for (int round = 1; round <= 2000; ++round) {
+  for (int round = 1; round <= 300; ++round) {
     team.run([&](int thread) { done[thread] = round; });
     ASSERT_EQ(done, std::vector<int>(2, round));
   }
