@@ -49,12 +49,4 @@ std::vector<double> rows_of_nodes(const Sample& sample, const Field& field);
 void append_box(Field& field, const Vec2& entry);
 inline Vec2 vec_from(const std::vector<double>& two) { return {two.at(0), two.at(1)}; }
 
-/// Whether shells and intact links join a sample to its own images along x (0) or y (1): whether something goes on round the box that way.
-/// `joined`: pairs of parts with the image through which the second is joined to the first.
-struct Joint {
-  Index a = 0, b = 0;
-  Image image{0, 0};
-};
-bool goes_round(Index parts, const std::vector<Joint>& joints, int axis);
-
 }  // namespace lamella

@@ -9,7 +9,7 @@
 #include "generator/sample/errors.h"
 #include "generator/sample/union_find.h"
 #include "generator/sample/voids.h"
-#include "simulator/moving_box.h"
+#include "generator/sample/way_round.h"
 
 namespace lamella {
 
