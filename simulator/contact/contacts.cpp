@@ -339,6 +339,7 @@ void Contacts::evaluate(const Field& x, const Field& v, Index begin, Index end) 
 }
 
 void Contacts::scatter(Field& f, Field& damped_f) const {
+  const bool box_too = box_moves(sample_, f);
   for (std::size_t k = 0; k < forces_.size(); ++k) {
     const Index node = list_.pairs[k].node;
     for (int a = 0; a < forces_[k]; ++a) {
@@ -351,6 +352,7 @@ void Contacts::scatter(Field& f, Field& damped_f) const {
         damped_f.add(out.segment, (out.t - 1) * out.damping);
         damped_f.add(out.next, -out.t * out.damping);
       }
+      if (!box_too) continue;
       if (const BoxEntry box = box_of(list_.pairs[k], f); box.node >= 0) {
         f.add(box.node, box.steps.cwiseProduct(out.force));
         if (p_.damping > 0) damped_f.add(box.node, box.steps.cwiseProduct(out.damping));
