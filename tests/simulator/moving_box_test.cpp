@@ -205,6 +205,22 @@ TEST(MovingBox, at_rest_takes_the_same_stress_with_more_periods_and_wherever_it_
     }
 }
 
+TEST(MovingBox, at_rest_bears_the_same_stress_until_the_first_break_with_more_periods_and_wherever_it_begins) {
+  for (const std::string axis : {"x", "y"}) {
+    const auto strength = [&](const Sample& s) {
+      AtRest rig(s, pulled_stage(axis, 0.6, 6.0, true));
+      while (!rig.stepper->critical() && rig.stepper->time() < 1) rig.stepper->load_towards(1, [] { return true; });
+      EXPECT_TRUE(rig.stepper->critical());
+      return rig.stress();
+    };
+    const double one = strength(torus(2, 1));
+    EXPECT_GT(one, 1);
+    Sample away = torus(2, 1);
+    for (Vec2& p : away.x) p += Vec2(-0.4, 1.1);
+    for (const Sample& other : {torus(2, 2), torus(4, 1), away}) EXPECT_NEAR(strength(other) / one, 1, 1e-4);
+  }
+}
+
 /// Strengths that differ from link to link, the same for a link and its twins in a box of more periods.
 Sample varied(Sample s, unsigned seed = 1) {
   std::mt19937 random(seed);
@@ -342,6 +358,20 @@ TEST(MovingBoxRun, in_time_is_torn_with_its_ledger_closed) {
     EXPECT_EQ(run.facts.ended.substr(0, 9), "separated") << more;
     EXPECT_LT(run.facts.residual, 5e-3) << more;
     EXPECT_GT(run.events.size(), 5u) << more;
+  }
+}
+
+TEST(MovingBoxRun, whose_walls_break_keeps_its_ledger_at_rest_and_in_time) {
+  const Sample s = torus(2, 2);
+  for (const std::string scheme : {"quasi_static", "velocity_verlet"}) {
+    std::vector<std::string> settings = {"run.stepper=\"" + scheme + "\"", "cells.break_force=4",
+                                         "links.normal_strength=1e6", "links.tangential_strength=1e6"};
+    if (scheme != "quasi_static")
+      for (const char* more : {"loading.strain_rate=0.2", "loading.ramp_strain=0.01", "drag.rate=0.5"})
+        settings.push_back(more);
+    const Ran run = ran(s, scene_of(settings));
+    EXPECT_LT(run.facts.residual, 1e-2) << scheme;
+    EXPECT_GT(run.column("broken_bars").back(), 1) << scheme;
   }
 }
 
