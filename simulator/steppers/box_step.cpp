@@ -7,11 +7,23 @@ namespace lamella {
 
 BoxStep::BoxStep(const Model& model, const std::vector<Load>& loads, State& state)
     : model_(model), loads_(loads), state_(state), node_(box_moves(model.sample, state.x) ? model.sample.nodes() : -1) {
+  for (std::size_t i = 0; moves() && i < model.sample.x.size(); ++i) {
+    const Vec2 share = carried_share(model.sample, i);
+    share_x_.push_back(share.x()), share_y_.push_back(share.y());
+  }
   for (std::size_t l = 0; l < loads.size(); ++l) {
     if (!loads[l].box) continue;
     load = static_cast<Index>(l);
     held = {loads[l].holds[0], loads[l].holds[1]};
   }
+}
+
+Vec2 BoxStep::share_of(const Field& f, Index begin, Index end) const {
+  const double *SX = share_x_.data(), *SY = share_y_.data(), *FX = f.x.data(), *FY = f.y.data();
+  double x = 0, y = 0;
+#pragma omp simd reduction(+ : x, y)
+  for (Index i = begin; i < end; ++i) x += SX[i] * FX[i], y += SY[i] * FY[i];
+  return {x, y};
 }
 
 void BoxStep::advance(const Vec2& force, const Vec2& damped, double dt, double kick) {
@@ -40,14 +52,16 @@ void BoxStep::advance(const Vec2& force, const Vec2& damped, double dt, double k
   work += work_in + work_out;
   damping += damping_in + damping_out;
 
-  const Sample& sample = model_.sample;
   state_.v.set(node_, next);
   state_.x.add(node_, dt * next);
-  double most = 0;
-  for (std::size_t i = 0; i < sample.x.size(); ++i) {
-    const Vec2 carried = carried_share(sample, i).cwiseProduct(next);
-    most = std::max(most, (state_.v.at(i) + carried).squaredNorm());
-    state_.x.add(i, dt * carried);
+  const double *SX = share_x_.data(), *SY = share_y_.data(), *VX = state_.v.x.data(), *VY = state_.v.y.data();
+  double *X = state_.x.x.data(), *Y = state_.x.y.data(), most = 0;
+  const double nx = next.x(), ny = next.y();
+#pragma omp simd reduction(max : most)
+  for (Index i = 0; i < node_; ++i) {
+    const double cx = SX[i] * nx, cy = SY[i] * ny;
+    most = std::max(most, (VX[i] + cx) * (VX[i] + cx) + (VY[i] + cy) * (VY[i] + cy));
+    X[i] += dt * cx, Y[i] += dt * cy;
   }
   // Against an image a node moves with the image's box too.
   fastest = std::sqrt(most) + (model_.contacts ? 0.5 * model_.contacts->farthest_image() * next.norm() : 0.0);

@@ -23,6 +23,8 @@ struct BoxStep {
   }
   /// Velocities of all nodes, and the rate of the growth.
   Field velocities() const { return absolute(model_.sample, state_.v); }
+  /// Of a field of forces on nodes [begin, end), what acts on the growth.
+  Vec2 share_of(const Field& f, Index begin, Index end) const;
   /// Kick and drift under `force` on the relative growth, of which `damped` is that of dashpots [N].
   void advance(const Vec2& force, const Vec2& damped, double dt, double kick);
 
@@ -36,6 +38,7 @@ struct BoxStep {
   std::array<bool, 2> held{false, false};
 
  private:
+  std::vector<double> share_x_, share_y_;  // of each node (carried_share); empty unless the box moves
   const Model& model_;
   const std::vector<Load>& loads_;
   State& state_;

@@ -377,11 +377,8 @@ void VelocityVerlet::sweep_block(Index b, Worker& w, double dt, double kick, Fie
 // The share of the nodes' forces, complete now.
 void VelocityVerlet::add_to_box(const CellBlock& block, BlockSums& sums) {
   sums.box_damped.setZero();
-  for (Index i = block.node_begin; i < block.node_end; ++i) {
-    const Vec2 share = carried_share(model_.sample, i);
-    sums.box += share.cwiseProduct(f_.at(i));
-    if (damped_f_.size() > 0) sums.box_damped += share.cwiseProduct(damped_f_.at(i));
-  }
+  sums.box += box_.share_of(f_, block.node_begin, block.node_end);
+  if (damped_f_.size() > 0) sums.box_damped = box_.share_of(damped_f_, block.node_begin, block.node_end);
 }
 
 void VelocityVerlet::step_box(double dt, double kick) {
