@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "simulator/trajectory/extract.h"
 #include "tests/simulator/torus.h"
 #include "tests/support/temporary_folder.h"
 
@@ -174,6 +175,20 @@ TEST(MovingBoxRun, interrupted_resumes_to_the_same_bits) {
     EXPECT_EQ(whole.last.doubles("x"), resumed.last.doubles("x")) << scheme;
     EXPECT_EQ(whole.last.doubles("box_size"), resumed.last.doubles("box_size")) << scheme;
   }
+}
+
+TEST(MovingBoxRun, a_frame_of_it_is_a_sample_whose_box_is_as_large_and_whose_links_hold_as_much) {
+  const Sample s = varied(torus(4, 4));
+  const Scene scene = scene_of({"loading.strain=0.1"});
+  const TemporaryFolder folder;
+  TrajectoryWriter writer(folder / "run", s, {});
+  const Ran run = read(folder / "run", simulate(s, scene, writer, {}));
+  const Sample frame = extract_sample(TrajectoryReader(folder / "run"), -1);
+  ASSERT_LT(frame.links.size(), s.links.size());
+  ASSERT_EQ(frame.link_image.size(), frame.links.size());
+  for (int c = 0; c < 2; ++c) EXPECT_NEAR(frame.box.size()[c], run.last.doubles("box_size").at(c), 1e-12);
+  const auto model = build_model(frame, scene.stages[0], field_of(frame.x));
+  EXPECT_NEAR(model->links->energy(field_of(frame.x)) / run.column("energy_links").back(), 1, 1e-9);
 }
 
 TEST(MovingBoxRun, a_stage_that_does_not_pull_holds_the_box_where_it_is) {
