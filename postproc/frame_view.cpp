@@ -23,6 +23,17 @@ Link FrameView::link(Index l) const {
   return has_tangent(standing) ? standing : sample.links[l];
 }
 
+Vec2 FrameView::box_size() const {
+  const std::vector<double>* size = doubles("box_size");
+  return size ? Vec2(size->at(0), size->at(1)) : sample.box.size();
+}
+
+Vec2 FrameView::displaced(std::size_t l) const {
+  if (sample.link_image.empty()) return Vec2(0, 0);
+  const Image& image = sample.link_image[l];
+  return box_size().cwiseProduct(Vec2(image[0], image[1]));
+}
+
 const std::vector<double>* FrameView::doubles(const std::string& name) const {
   const NamedArray* array = frame.arrays.find(name);
   return array ? std::get_if<std::vector<double>>(&array->data) : nullptr;

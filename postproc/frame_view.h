@@ -28,6 +28,12 @@ struct FrameView {
   /// The link with the tangent that broken bars leave it; as it was where they leave none.
   Link link(Index l) const;
 
+  /// Lengths of the box: those of the sample, unless the frame says that they have changed [m].
+  Vec2 box_size() const;
+  bool box_moves() const { return has("box_size"); }
+  /// By which b of a link is displaced where it faces a [m].
+  Vec2 displaced(std::size_t link) const;
+
   const Sample& sample;
   const Frame& frame;
   std::vector<Vec2> x;  // positions of the centre lines [m]

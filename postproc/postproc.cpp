@@ -163,10 +163,12 @@ class Post {
     const std::vector<CellShape> shapes = cell_shapes(view);
     facts_.cell_stress.emplace_back(view.frame.time,
                                     mean_stress(sample, shapes, cell_stress(view, shapes, facts_.setup->depth)));
-    if (sample.periodic[1 - facts_.setup->axis]) return;  // the box holds its length across
-    const double sign = facts_.setup->sign();
+    const int across = 1 - facts_.setup->axis;
+    if (sample.periodic[across] && !view.box_moves()) return;  // the box holds its length across
+    const double lateral = view.box_moves() ? view.box_size()[across] / sample.box.size()[across] - 1
+                                            : lateral_strain(sample, view.x, facts_.setup->axis);
     frames_.lateral.emplace_back(value_at(facts_.curve.time, facts_.curve.strain, view.frame.time),
-                                 sign * lateral_strain(sample, view.x, facts_.setup->axis));
+                                 facts_.setup->sign() * lateral);
   }
 
   double provenance_number(const std::string& key, double otherwise) const {

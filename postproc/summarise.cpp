@@ -38,7 +38,10 @@ void add_test(Summary& summary, const SummaryInputs& facts) {
   const bool shear = setup.kind == "shear";
   const Sample& sample = facts.last->sample;
   const std::string sides =
-      sample.periodic[1 - setup.axis]
+      facts.last->box_moves()
+          ? "the sample repeats both ways, and its box is pulled: the strain across is that of the box, 0 where it is "
+            "held"
+      : sample.periodic[1 - setup.axis]
           ? "the sample repeats across the axis, where its length is held: with the strain across at 0"
           : "the sample's sides are free, the grips hold theirs";
   const std::string sign = setup.kind == "compression" ? " Compression counts positive here." : "";
@@ -56,7 +59,8 @@ void add_test(Summary& summary, const SummaryInputs& facts) {
                 {"poisson_ratio", *m.poisson, "1",
                  "minus the slope of mean lateral over axial strain in the frames of the elastic part (at least three, "
                  "else those before peak and first break); lateral strain is that of the cells' centroids in the "
-                 "middle half of the gauge length, by a straight line"});
+                 "middle half of the gauge length, by a straight line; of a box that is pulled, that of its length "
+                 "across"});
   summary.add("test", {"peak_stress", m.peak_stress, "Pa",
                        "largest nominal stress: force of grip b over box width times depth at rest." + sign});
   summary.add("test", {"strain_at_peak", m.strain_at_peak, "1",
@@ -125,10 +129,13 @@ void add_fracture(Summary& summary, const SummaryInputs& facts) {
   summary.add("fracture", {"cracks", static_cast<double>(facts.cracks.size()), "1",
                            "connected pieces of broken links, last frame"});
   if (facts.setup) {
-    summary.add("fracture",
-                {"through_cracks", static_cast<double>(through_cracks(*facts.last, pieces, facts.setup->axis)), "1",
-                 "cracks across the tissue: 0 while a path of shells and intact links joins the grips, else 1 and "
-                 "one more for each fragment between them that reaches from one free side to the other"});
+    summary.add(
+        "fracture",
+        {"through_cracks", static_cast<double>(through_cracks(*facts.last, pieces, facts.setup->axis)), "1",
+         "cracks across the tissue: 0 while a path of shells and intact links joins the grips, else 1 and "
+         "one more for each fragment between them that reaches from one free side to the other; where the box is "
+         "pulled, "
+         "once nothing goes round it along the pull, as many as fragments go round it across, and at least one"});
   }
   const double size = mean_cell_size(sample);
   if (!facts.cracks.empty() && size > 0) {

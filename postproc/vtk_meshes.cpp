@@ -146,7 +146,7 @@ Mesh links_mesh(const FrameView& view) {
   std::vector<float> opening;
   for (std::size_t l = 0; l < sample.links.size(); ++l) {
     const Link& link = sample.links[l];
-    const Vec2 displaced = link_displacement(sample, l);
+    const Vec2 displaced = view.displaced(l);
     for (const Vec2& end : {view.x[link.a], Vec2(view.x[link.b] + displaced)}) {
       mesh.connectivity.push_back(static_cast<std::int64_t>(mesh.points.size()));
       mesh.points.push_back(end);
@@ -223,7 +223,7 @@ Mesh cracks_mesh(const FrameView& view, const std::vector<Crack>& cracks) {
       std::vector<Vec2> points = line.points;
       if (points.size() == 1) {  // a lone link within its wall: as long as what it stands for
         const Link link = view.link(line.links[0]);
-        const Vec2 displaced = link_displacement(view.sample, line.links[0]);
+        const Vec2 displaced = view.displaced(line.links[0]);
         const Vec2 half = 0.5 * link.length * link_frame(link, view.x, displaced).t;
         points = {line.points[0] - half, line.points[0] + half};
       }

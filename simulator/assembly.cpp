@@ -8,7 +8,8 @@ FreeComponents::FreeComponents(std::size_t nodes, const std::vector<Load>& loads
   for (const Load& load : loads)
     for (Index i : load.nodes)
       for (int c = 0; c < 2; ++c)
-        if (load.holds[c]) row_[2 * static_cast<std::size_t>(i) + c] = -1;
+        if (load.holds[c] && static_cast<std::size_t>(i) < nodes)  // a box without an entry stays as it is
+          row_[2 * static_cast<std::size_t>(i) + c] = -1;
   for (std::size_t k = 0; k < row_.size(); ++k)
     if (row_[k] == 0) row_[k] = static_cast<int>(component_.size()), component_.push_back(static_cast<Index>(k));
 }

@@ -4,10 +4,12 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "generator/sample/errors.h"
 #include "simulator/model.h"
+#include "simulator/moving_box.h"
 
 namespace lamella {
 namespace {
@@ -312,6 +314,10 @@ std::unique_ptr<Model> assemble(const Sample& sample, const Stage& stage, const 
   if (dashpots) model->dashpots = std::make_unique<Dashpots>(model->layout, bar_dashpot, hinge_dashpot);
   const WallStrength strength = wall_strength(sample, section);
   if (!strength.force.empty() || !strength.strain.empty()) model->add_rupture(strength);
+  if (box_moves(sample, x)) {
+    model->mass.push_back(box_mass(std::accumulate(model->mass.begin(), model->mass.end(), 0.0)));
+    model->inverse_mass.push_back(1 / model->mass.back());
+  }
   return model;
 }
 

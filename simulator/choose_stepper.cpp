@@ -7,6 +7,7 @@
 
 #include "simulator/load_path.h"
 #include "simulator/lowest_frequency.h"
+#include "simulator/moving_box.h"
 
 namespace lamella {
 namespace {
@@ -30,7 +31,8 @@ StepperChoice choose_stepper(const Sample& sample, const Stage& stage) {
   if (stage.run.stepper != "auto") return {stage.run.stepper, ""};
   if (const std::string what = needs_motion(stage); !what.empty())
     return {"velocity_verlet", fmt::format("in time (velocity_verlet), because {}", what)};
-  const Field x = field_of(sample.x);
+  Field x = field_of(sample.x);
+  if (pulls_box(sample, stage)) append_box(x, Vec2(0, 0));
   const auto model = build_model(sample, stage, x);
   const std::vector<Load> loads = build_loads(sample, stage);
   const double duration = LoadPath(stage, measure_gauge(sample, stage, loads)).duration();

@@ -24,12 +24,11 @@ Selection on_side(int side) {
 std::vector<Load> grips(const Sample& sample, const Stage& stage, const LoadingScene& loading) {
   const int axis = loading.axis == "x" ? 0 : 1;
   if (sample.periodic[axis])
-    throw SceneError(fmt::format(
-        "loading.axis: the sample repeats along {0} (sample.periodic), where it has no sides that grips could hold{1}",
-        loading.axis,
-        sample.periodic[1 - axis] ? ", nor anywhere else; a sample that repeats both ways can be made, but not pulled: "
-                                    "give sample.periodic = \"x\" or \"y\", and pull across it"
-                                  : fmt::format("; pull along {}", axis == 0 ? "y" : "x")));
+    throw SceneError(
+        fmt::format("loading.axis: the sample repeats along {} (sample.periodic), where it has no sides that grips "
+                    "could hold; pull "
+                    "along {}",
+                    loading.axis, axis == 0 ? "y" : "x"));
   const bool shear = loading.kind == "shear";
   const Gauge gauge = [&] {
     Load low, high;
@@ -50,6 +49,43 @@ std::vector<Load> grips(const Sample& sample, const Stage& stage, const LoadingS
     load.factor = 0;
   }
   return loads;
+}
+
+/// A box has lengths along x and y and nothing else: what needs sides, or a frame that is at rest while nodes are carried along, has no meaning.
+void refuse_on_box(const Sample& sample, const Stage& stage, const LoadingScene& loading) {
+  std::vector<std::string> faults;
+  const auto at = [&](int line) {
+    if (stage.file.empty()) return std::string();
+    return line > 0 ? fmt::format("{}:{}: ", stage.file, line) : stage.file + ": ";
+  };
+  const auto refuse = [&](bool present, int line, const std::string& key, const std::string& why) {
+    if (present)
+      faults.push_back(fmt::format(
+          "{}{}: the sample repeats both ways (sample.periodic = \"xy\"), so that its box is pulled, which {}",
+          at(line), key, why));
+  };
+  refuse(loading.kind == "shear", loading.line, "loading.kind",
+         "has no sides to shear; give \"tension\" or \"compression\", or a sample that repeats along x or y alone");
+  refuse(loading.both, loading.line, "loading.both", "has no grips: it grows about its middle anyhow; remove it");
+  if (!stage.loads.empty())
+    refuse(true, stage.loads.front().line, "loads",
+           "carries all nodes along: none can be held or pushed beside it; remove [[loads]]");
+  refuse(stage.gravity.has_value(), 0, "gravity", "has nothing that would bear its weight; remove [gravity]");
+  const Vec2 size = sample.box.size();
+  if (!(size.x() > 0) || !(size.y() > 0))
+    faults.push_back(
+        fmt::format("loading: the sample's box is {:.3g} m by {:.3g} m; both must be positive", size.x(), size.y()));
+  if (!faults.empty()) throw SceneError(std::move(faults));
+}
+
+Load pulled_box(const Sample& sample, const Stage& stage, const LoadingScene& loading) {
+  refuse_on_box(sample, stage, loading);
+  Load load = held_box(sample);
+  load.name = "box";
+  load.holds[loading.axis == "x" ? 1 : 0] = !loading.normal_only;
+  const Gauge gauge = measure_gauge(sample, stage, {load});
+  load.velocity[gauge.axis] = gauge.speed;
+  return load;
 }
 
 Load from_scene(const Sample& sample, const LoadScene& scene) {
@@ -80,7 +116,7 @@ Load from_scene(const Sample& sample, const LoadScene& scene) {
 
 void refuse_contradictions(const Sample& sample, const std::vector<Load>& loads) {
   std::vector<std::string> faults;
-  std::vector<int> holder[2] = {std::vector<int>(sample.nodes(), -1), std::vector<int>(sample.nodes(), -1)};
+  std::vector<int> holder[2] = {std::vector<int>(sample.nodes() + 1, -1), std::vector<int>(sample.nodes() + 1, -1)};
   for (int l = 0; l < static_cast<int>(loads.size()); ++l)
     for (int c = 0; c < 2; ++c) {
       if (!loads[l].holds[c]) continue;
@@ -132,9 +168,31 @@ double mean_displacement(const Sample& sample, const Field& x, const Load& load,
   return sum / static_cast<double>(load.nodes.size());
 }
 
+bool pulls_box(const Sample& sample, const Stage& stage) {
+  return stage.loading && sample.periodic[0] && sample.periodic[1];
+}
+
+Load held_box(const Sample& sample) {
+  Load load;
+  load.name = "box that is held";
+  load.nodes = {sample.nodes()};
+  load.holds[0] = load.holds[1] = true;
+  load.grip = load.box = true;
+  load.factor = 0;
+  return load;
+}
+
+std::array<double, 2> grip_forces(const Gauge& gauge, const std::vector<Vec2>& load_force) {
+  if (gauge.box) return {load_force[0][gauge.component], load_force[0][gauge.component]};
+  return {-load_force[0][gauge.component], load_force[1][gauge.component]};
+}
+
 std::vector<Load> build_loads(const Sample& sample, const Stage& stage) {
   std::vector<Load> loads;
-  if (stage.loading) loads = grips(sample, stage, *stage.loading);
+  if (pulls_box(sample, stage))
+    loads.push_back(pulled_box(sample, stage, *stage.loading));
+  else if (stage.loading)
+    loads = grips(sample, stage, *stage.loading);
   for (const LoadScene& scene : stage.loads) loads.push_back(from_scene(sample, scene));
   for (Load& load : loads) {
     if (!std::is_sorted(load.nodes.begin(), load.nodes.end())) {
@@ -154,14 +212,17 @@ std::vector<Load> build_loads(const Sample& sample, const Stage& stage) {
 
 Gauge measure_gauge(const Sample& sample, const Stage& stage, const std::vector<Load>& loads) {
   Gauge gauge;
-  if (!stage.loading || loads.size() < 2) return gauge;
+  if (!stage.loading || loads.empty()) return gauge;
   const LoadingScene& loading = *stage.loading;
   gauge.axis = loading.axis == "x" ? 0 : 1;
   gauge.component = loading.kind == "shear" ? 1 - gauge.axis : gauge.axis;
-  double low = 0, high = 0;
-  for (Index i : loads[0].nodes) low += sample.x[i][gauge.axis] / static_cast<double>(loads[0].nodes.size());
-  for (Index i : loads[1].nodes) high += sample.x[i][gauge.axis] / static_cast<double>(loads[1].nodes.size());
-  gauge.length = high - low;
+  gauge.box = loads[0].box;
+  const auto mean = [&](const Load& load) {
+    double sum = 0;
+    for (Index i : load.nodes) sum += sample.x[i][gauge.axis] / static_cast<double>(load.nodes.size());
+    return sum;
+  };
+  gauge.length = gauge.box ? sample.box.size()[gauge.axis] : mean(loads.at(1)) - mean(loads[0]);
   gauge.width = sample.box.size()[1 - gauge.axis];
   gauge.depth = stage.cell("cells").depth;
   if (!(gauge.length > 0) || !(gauge.width > 0))

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "simulator/assembly.h"
+#include "simulator/moving_box.h"
 
 namespace lamella {
 namespace {
@@ -18,6 +19,19 @@ constexpr double kConverged = 1e-4;  // relative change of the frequency
 // Over the largest eigenvalue of the system. The shift keeps the matrix regular where shells are free.
 constexpr double kShift = 1e-10, kRigid = 1e-9;
 
+/// Where a box moves masses are those of relative coordinates (moving_box.h), and so has the stiffness to be.
+Sparse relative_stiffness(const Model& model, const FreeComponents& free, const Field& x) {
+  const Sparse k = assembled_stiffness(model, free, x);
+  if (!box_moves(model.sample, x) || !free.moves(model.sample.nodes())) return k;
+  Sparse to_x(free.size(), free.size());
+  to_x.setIdentity();
+  for (int c = 0; c < 2; ++c)
+    if (const int box = free.row(model.sample.nodes(), c); box >= 0)
+      for (Index i = 0; i < model.sample.nodes(); ++i)
+        to_x.coeffRef(free.row(i, c), box) = carried_share(model.sample, i)[c];
+  return to_x.transpose() * k * to_x;
+}
+
 }  // namespace
 
 std::optional<double> lowest_frequency(const Model& model, const std::vector<Load>& loads, const Field& x) {
@@ -28,7 +42,7 @@ std::optional<double> lowest_frequency(const Model& model, const std::vector<Loa
 
   Eigen::VectorXd to_unit_mass(size);
   for (int row = 0; row < size; ++row) to_unit_mass[row] = std::sqrt(model.inverse_mass[free.node_of(row)]);
-  const Sparse k = to_unit_mass.asDiagonal() * assembled_stiffness(model, free, x) * to_unit_mass.asDiagonal();
+  const Sparse k = to_unit_mass.asDiagonal() * relative_stiffness(model, free, x) * to_unit_mass.asDiagonal();
   Eigen::VectorXd row_sums = Eigen::VectorXd::Zero(size);
   for (int column = 0; column < size; ++column)
     for (Sparse::InnerIterator it(k, column); it; ++it) row_sums[it.row()] += std::abs(it.value());

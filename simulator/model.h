@@ -32,7 +32,7 @@ struct Model {
 
   const Sample& sample;
   ShellLayout layout;
-  std::vector<double> mass, inverse_mass;  // of the nodes [kg], [1/kg]
+  std::vector<double> mass, inverse_mass;  // of the nodes, and of the box where it moves [kg], [1/kg]
 
   std::unique_ptr<Bars> bars;
   std::unique_ptr<Hinges> hinges;

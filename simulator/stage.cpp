@@ -5,6 +5,7 @@
 
 #include "generator/sample/errors.h"
 #include "simulator/choose_stepper.h"
+#include "simulator/moving_box.h"
 #include "simulator/stage_run.h"
 #include "simulator/static_stage.h"
 
@@ -21,6 +22,16 @@ std::unique_ptr<Model> restored_model(const Sample& sample, const Stage& stage, 
   }
   for (Term* term : model->terms()) term->restore(start);
   return model;
+}
+
+/// Where the stage starts: those of `start`, or of the sample, with the entry of a box that moves.
+Field start_positions(const Sample& sample, const Stage& stage, const ArraySet& start) {
+  Field x = start.find("x") ? field_from(start.doubles("x")) : field_of(sample.x);
+  if (start.find("box_growth"))
+    append_box(x, vec_from(start.doubles("box_growth")));
+  else if (pulls_box(sample, stage))
+    append_box(x, Vec2(0, 0));
+  return x;
 }
 
 }  // namespace
@@ -43,13 +54,21 @@ StageDriver::StageDriver(const Sample& sample, const Scene& scene, int stage, co
       stage_(scene.stages[stage]),
       index_(stage),
       resumed_(how == StageStart::kResumed),
-      start_x_(start.find("x") ? field_from(start.doubles("x")) : field_of(sample.x)) {
+      start_x_(start_positions(sample, stage_, start)) {
   if (start.find("clock")) {
     start_time_ = start.doubles("clock").at(0);
     start_step_ = static_cast<std::int64_t>(start.doubles("clock").at(1));
   }
   model_ = restored_model(sample, stage_, start_x_, start);
   loads_ = build_loads(sample, stage_);
+  if (!stage_.loading && box_moves(sample, start_x_)) {  // an earlier stage has pulled it
+    if (!loads_.empty() || model_->gravity)
+      throw SceneError(
+          fmt::format("stage '{}': goes on with a box that an earlier stage has pulled, and has [[loads]] or [gravity] "
+                      "beside it; remove them",
+                      stage_.name));
+    loads_.push_back(held_box(sample));
+  }
   load_columns_ = load_columns(loads_);
   gauge_ = measure_gauge(sample, stage_, loads_);
   stops_.emplace(stage_, *model_, loads_, start_x_);
@@ -102,6 +121,13 @@ std::string StageDriver::term_names() const {
   return names;
 }
 
+std::string StageDriver::box_line() const {
+  const int across = 1 - gauge_.axis;
+  return fmt::format("  the box is pulled along {}; along {} its length is {}", gauge_.axis == 0 ? "x" : "y",
+                     across == 0 ? "x" : "y",
+                     loads_[0].holds[across] ? "held (loading.normal_only = true frees it)" : "free");
+}
+
 void StageDriver::say_why(std::vector<std::string>& lines) const {
   if (!chosen_.empty()) lines.push_back("  " + chosen_);
 }
@@ -114,6 +140,32 @@ void StageDriver::report(const SimulateOptions& options, double done, double tim
   p.done = (index_ + std::min(1.0, done)) / p.stages;
   p.time = time, p.strain = strain, p.stress = stress, p.broken = broken();
   options.progress(p);
+}
+
+Field StageDriver::start_velocities(const ArraySet& start) const {
+  if (!start.find("v")) return Field(start_x_.size());
+  Field v = field_from(start.doubles("v"));
+  if (box_moves(sample_, start_x_))
+    append_box(v, start.find("box_rate") ? vec_from(start.doubles("box_rate")) : Vec2(0, 0));
+  return v;
+}
+
+void StageDriver::save_motion(const Field& x, const Field& v, ArraySet& restart) const {
+  restart.add({"x", "m", "node", 2, rows_of_nodes(sample_, x)});
+  restart.add({"v", "m/s", "node", 2, rows_of_nodes(sample_, v)});
+  if (!box_moves(sample_, x)) return;
+  const Vec2 growth = box_growth(sample_, x), rate = box_growth(sample_, v);
+  restart.add({"box_growth", "m", "model", 1, std::vector<double>{growth.x(), growth.y()}});
+  restart.add({"box_rate", "m/s", "model", 1, std::vector<double>{rate.x(), rate.y()}});
+}
+
+// A frame has the velocities of nodes themselves, and the box's lengths.
+void StageDriver::add_motion(const Field& x, const Field& v, ArraySet& frame) const {
+  frame.add({"x", "m", "node", 2, rows_of_nodes(sample_, x)});
+  frame.add({"v", "m/s", "node", 2, rows_of_nodes(sample_, absolute(sample_, v))});
+  if (!box_moves(sample_, x)) return;
+  const Vec2 size = box_size(sample_, x);
+  frame.add({"box_size", "m", "model", 1, std::vector<double>{size.x(), size.y()}});
 }
 
 void StageDriver::add_output(const Field& x, ArraySet& frame) const {

@@ -41,6 +41,7 @@ class StageDriver {
   void require_end(double duration) const;
   /// Names of the terms, and why this driver, where the scene leaves it to the program: lines of the summary.
   std::string term_names() const;
+  std::string box_line() const;
   void say_why(std::vector<std::string>& summary) const;
   std::string prefix() const { return index_ == 0 ? "" : fmt::format("stage_{}_", index_); }
   void report(const SimulateOptions& options, double done, double time, double strain, double stress) const;
@@ -48,6 +49,11 @@ class StageDriver {
   int broken() const { return broken_links() + broken_bars(); }
   int broken_links() const { return model_->links ? static_cast<int>(model_->links->broken()) : 0; }
   int broken_bars() const { return model_->rupture ? static_cast<int>(model_->rupture->broken().count()) : 0; }
+  /// Velocities where the stage starts; relative ones, where a box moves (moving_box.h).
+  Field start_velocities(const ArraySet& start) const;
+  /// Positions and velocities, for a restart and for a frame.
+  void save_motion(const Field& x, const Field& v, ArraySet& restart) const;
+  void add_motion(const Field& x, const Field& v, ArraySet& frame) const;
   /// What terms say of x in a frame, and what they need to go on.
   void add_output(const Field& x, ArraySet& frame) const;
   void save_terms(ArraySet& restart) const;

@@ -11,6 +11,7 @@
 #include "generator/sample/errors.h"
 #include "simulator/health.h"
 #include "simulator/initial.h"
+#include "simulator/moving_box.h"
 #include "simulator/steppers/backward_euler.h"
 #include "simulator/steppers/generalised_alpha.h"
 #include "simulator/steppers/velocity_verlet.h"
@@ -35,10 +36,7 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 
 StageRun::StageRun(const Sample& sample, const Scene& scene, int stage, const ArraySet& start, StageStart how)
     : StageDriver(sample, scene, stage, start, how),
-      state_{.x = start_x_,
-             .v = start.find("v") ? field_from(start.doubles("v")) : Field(start_x_.size()),
-             .time = start_time_,
-             .step = start_step_} {
+      state_{.x = start_x_, .v = start_velocities(start), .time = start_time_, .step = start_step_} {
   if (stage_.loading) course_.emplace(*stage_.loading, gauge_);
   const RunScene& asked = stage_.run;
   if (asked.stepper == "backward_euler")
@@ -151,9 +149,11 @@ std::vector<std::string> StageRun::summary() const {
   }
   if (course_) {
     const double wave = std::sqrt(stage_.cell("cells").axial() / stage_.cell("cells").line_density());
+    if (gauge_.box) lines.push_back(box_line());
     lines.push_back(fmt::format(
-        "  grips part at {:.3g} m/s, {:.2g} of the wall's wave speed {:.3g} m/s; gauge length {:.4g} m, width {:.4g} m",
-        gauge_.speed, std::abs(gauge_.speed) / wave, wave, gauge_.length, gauge_.width));
+        "  {} at {:.3g} m/s, {:.2g} of the wall's wave speed {:.3g} m/s; gauge length {:.4g} m, width {:.4g} m",
+        gauge_.box ? "the box grows" : "grips part", gauge_.speed, std::abs(gauge_.speed) / wave, wave, gauge_.length,
+        gauge_.width));
   }
   return lines;
 }
@@ -204,8 +204,8 @@ StageRun::Row StageRun::weigh(double energy, const Measurement& m) const {
   row.works.pressure += pressure_work_;
   row.unbalanced = m.unbalanced;
   if (course_) {
-    row.force_a = -m.load_force[0][gauge_.component];
-    row.force_b = m.load_force[1][gauge_.component];
+    const auto [fixed, moving] = grip_forces(gauge_, m.load_force);
+    row.force_a = fixed, row.force_b = moving;
     row.stress = row.force_b / (gauge_.width * gauge_.depth);
   }
   const Works& w = row.works;
@@ -216,8 +216,7 @@ StageRun::Row StageRun::weigh(double energy, const Measurement& m) const {
 
 ArraySet StageRun::restart_arrays() const {
   ArraySet out;
-  out.add({"x", "m", "node", 2, rows_from(state_.x)});
-  out.add({"v", "m/s", "node", 2, rows_from(state_.v)});
+  save_motion(state_.x, state_.v, out);
   out.add({"clock", "1", "model", 1,
            std::vector<double>{state_.time, static_cast<double>(state_.step), static_cast<double>(index_)}});
   out.add({"driver", "1", "model", 1,
@@ -301,8 +300,7 @@ std::string StageRun::run(TrajectoryWriter& writer, const SimulateOptions& optio
     ArraySet arrays, restart;
     Field exerted(frame && !loads_.empty() ? state_.x.size() : 0);
     if (frame) {
-      arrays.add({"x", "m", "node", 2, rows_from(state_.x)});
-      arrays.add({"v", "m/s", "node", 2, rows_from(state_.v)});
+      add_motion(state_.x, state_.v, arrays);
       add_output(state_.x, arrays);
       restart = restart_arrays();
       stepper_->forget();
@@ -352,7 +350,7 @@ std::string StageRun::run(TrajectoryWriter& writer, const SimulateOptions& optio
       facts.residual = std::max(facts.residual, row.residual);
     }
     if (frame && !resumed_) {
-      if (exerted.size() > 0) arrays.add({"load_force", "N", "node", 2, rows_from(exerted)});
+      if (exerted.size() > 0) arrays.add({"load_force", "N", "node", 2, rows_of_nodes(sample_, exerted)});
       write(writer, std::move(arrays), std::move(restart), time, step);
     }
     if (resumed_) last_ = std::move(restart);

@@ -9,6 +9,7 @@
 
 #include "generator/sample/errors.h"
 #include "simulator/health.h"
+#include "simulator/moving_box.h"
 
 namespace lamella {
 
@@ -51,6 +52,7 @@ std::vector<std::string> StaticStage::summary() const {
   lines.push_back(fmt::format("  {} cells, {} nodes, {} links, {} unknowns", sample_.cells(), sample_.nodes(),
                               model_->links ? sample_.links.size() : 0, stepper_->solver().free().size()));
   say_why(lines);
+  if (gauge_.box) lines.push_back(box_line());
   const RunScene& run = stage_.run;
   lines.push_back(fmt::format(
       "  {} load steps at least; a force of {:.1g} of the largest may be left; links break {} within "
@@ -106,9 +108,10 @@ std::optional<std::string> StaticStage::add_row(TrajectoryWriter& writer, const 
   const double residual = largest_work_ > 0 ? std::abs((in - base_[0]) - (out - base_[1])) / largest_work_ : 0.0;
   const std::vector<Vec2> force = stepper_->load_forces();
   if (stage_.loading) {
-    stress_ = force[1][gauge_.component] / (gauge_.width * gauge_.depth);
+    const auto [fixed, moving] = grip_forces(gauge_, force);
+    stress_ = moving / (gauge_.width * gauge_.depth);
     put("strain", strain), put("stress", stress_);
-    put("force_a", -force[0][gauge_.component]), put("force_b", force[1][gauge_.component]);
+    put("force_a", fixed), put("force_b", moving);
   }
   for (const LoadColumn& c : load_columns_)
     put(c.name,
@@ -136,15 +139,14 @@ void StaticStage::write_frame(TrajectoryWriter& writer) {
   const double time = start_time_ + stepper_->time();
   Frame frame;
   frame.time = time, frame.step = step_, frame.stage = index_;
-  frame.arrays.add({"x", "m", "node", 2, rows_from(x)});
-  frame.arrays.add({"v", "m/s", "node", 2, std::vector<double>(2 * x.size(), 0.0)});
+  add_motion(x, Field(x.size()), frame.arrays);
   add_output(x, frame.arrays);
-  if (!loads_.empty()) frame.arrays.add({"load_force", "N", "node", 2, rows_from(stepper_->load_force_on_nodes())});
+  if (!loads_.empty())
+    frame.arrays.add({"load_force", "N", "node", 2, rows_of_nodes(sample_, stepper_->load_force_on_nodes())});
 
   ++frame_;
   ArraySet out;
-  out.add({"x", "m", "node", 2, rows_from(x)});
-  out.add({"v", "m/s", "node", 2, std::vector<double>(2 * x.size(), 0.0)});
+  save_motion(x, Field(x.size()), out);
   out.add(
       {"clock", "1", "model", 1, std::vector<double>{time, static_cast<double>(step_), static_cast<double>(index_)}});
   out.add(

@@ -9,6 +9,7 @@
 #include "generator/sample/errors.h"
 #include "generator/sample/union_find.h"
 #include "generator/sample/voids.h"
+#include "generator/sample/way_round.h"
 
 namespace lamella {
 
@@ -33,7 +34,10 @@ std::optional<std::string> StopConditions::reason(const Now& now) {
   if (stop_.stress_drop && damaged && magnitude < *stop_.stress_drop * history_.peak_stress)
     return fmt::format("stress fell below {:.0f} % of its peak {:.4g} Pa", 100 * *stop_.stress_drop,
                        history_.peak_stress);
-  if (stop_.separated && damaged && separated()) return "separated: no path of shells and intact links joins the grips";
+  if (stop_.separated && damaged && separated())
+    return pulled_box() ? fmt::format("separated: no path of shells and intact links goes round the box along {}",
+                                      *pulled_box() == 0 ? "x" : "y")
+                        : "separated: no path of shells and intact links joins the grips";
   if (stop_.at_rest && !now.first && now.unbalanced < *stop_.at_rest)
     return fmt::format("at rest: relative unbalanced force {:.2g}", now.unbalanced);
   for (std::size_t l = 0; l < loads_.size(); ++l)
@@ -69,11 +73,29 @@ std::vector<Index> parts_of(const Model& model) {
   return part;
 }
 
+std::optional<int> StopConditions::pulled_box() const {
+  if (loads_.empty() || !loads_[0].box) return std::nullopt;
+  return loads_[0].velocity.x() != 0 ? 0 : 1;
+}
+
 bool StopConditions::separated() const {
+  if (const auto axis = pulled_box()) return !joined_round(model_, *axis);
   const std::vector<Index> part = parts_of(model_);
   std::vector<std::uint8_t> low(part.size(), 0);
   for (Index i : loads_[0].nodes) low[part[i]] = 1;
   return std::none_of(loads_[1].nodes.begin(), loads_[1].nodes.end(), [&](Index i) { return low[part[i]] != 0; });
+}
+
+bool joined_round(const Model& model, int axis) {
+  const Sample& sample = model.sample;
+  const Pieces pieces = pieces_of(sample, model.rupture ? &model.rupture->broken() : nullptr);
+  std::vector<Joint> joints;
+  if (model.links)
+    for (std::size_t l = 0; l < sample.links.size(); ++l)
+      if (model.links->intact(static_cast<Index>(l)))
+        joints.push_back({pieces.of_node[sample.links[l].a], pieces.of_node[sample.links[l].b],
+                          sample.link_image.empty() ? Image{0, 0} : sample.link_image[l]});
+  return goes_round(pieces.count, joints, axis);
 }
 
 std::optional<std::string> unheld_load(const Model& model, const std::vector<Load>& loads) {

@@ -13,6 +13,9 @@ namespace lamella {
 /// Parts of the sample that shells and intact links hold together: a number for each node, the same within a part.
 std::vector<Index> parts_of(const Model& model);
 
+/// Whether shells and intact links join a periodic sample to its own images along x (0) or y (1): whether some path goes round the box.
+bool joined_round(const Model& model, int axis);
+
 /// The name of a load whose force acts, along x or y, on a part of which no node is held in that direction, if there is one: such a part
 /// can come to rest nowhere, unless contact stops it.
 std::optional<std::string> unheld_load(const Model& model, const std::vector<Load>& loads);
@@ -49,6 +52,8 @@ class StopConditions {
  private:
   double compaction(const Box& room) const { return 1 - room.area() / sample_room_; }
   bool separated() const;
+  /// The axis along which the box is pulled, where it is.
+  std::optional<int> pulled_box() const;
 
   const StopScene& stop_;
   const Model& model_;

@@ -101,7 +101,7 @@ std::vector<Section> sections() {
       section_of<LoadingScene>(
           "[loading]",
           "The two grips of a test on the sides of the box. Strain is nominal; tension and opening "
-          "are positive."),
+          "are positive. A sample that repeats both ways has no sides: its box is pulled."),
       section_of<LoadScene>(
           "[[loads]]", "Velocities or forces prescribed to groups of nodes. A component that is not given stays free."),
       section_of<InitialScene>(

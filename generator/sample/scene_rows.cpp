@@ -431,7 +431,9 @@ const std::vector<Row<LoadingScene>>& rows() {
       {.key = "both", .member = &S::both, .sentence = "Both grips move apart, each at half the speed."},
       {.key = "normal_only",
        .member = &S::normal_only,
-       .sentence = "Grips hold only the component along the axis; not for shear."},
+       .sentence =
+           "Grips hold only the component along the axis; not for shear. Of a sample that repeats both ways: the box's "
+           "length across is free."},
       {.key = "ramp_strain",
        .member = &S::ramp_strain,
        .unit = "1",
@@ -472,7 +474,7 @@ const std::vector<Row<StopScene>>& rows() {
        .fallback = "never"},
       {.key = "separated",
        .member = &S::separated,
-       .sentence = "When no path of shells and intact links joins the grips."},
+       .sentence = "When no path of shells and intact links joins the grips, or goes round a box that is pulled."},
       {.key = "at_rest",
        .member = &S::at_rest,
        .unit = "1",

@@ -10,6 +10,7 @@
 #include "simulator/choose_stepper.h"
 #include "simulator/loading.h"
 #include "simulator/lowest_frequency.h"
+#include "simulator/moving_box.h"
 
 namespace lamella {
 namespace {
@@ -96,7 +97,8 @@ Choice first_choice(const Sample& sample, const Scene& scene, double accepted) {
   }
   if (!first.run.time_step) choice.step_fraction = kStepFraction;
   {
-    const Field x = field_of(sample.x);
+    Field x = field_of(sample.x);
+    if (pulls_box(sample, first)) append_box(x, Vec2(0, 0));
     const std::unique_ptr<Model> model = build_model(sample, first, x);
     choice.frequency = lowest_frequency(*model, build_loads(sample, first), x);
   }

@@ -23,6 +23,12 @@ struct Grip {
   Vec2 outward = Vec2::Zero();
 };
 
+/// The box as it is now, about its middle.
+Box moved_box(const FrameView& view) {
+  const Vec2 middle = 0.5 * (view.sample.box.lo + view.sample.box.hi), half = 0.5 * view.box_size();
+  return {middle - half, middle + half};
+}
+
 std::vector<Grip> grips(const FrameView& view, const TestSetup& setup) {
   const Sample& sample = view.sample;
   const double thickness = kGripShare * sample.box.size().maxCoeff();
@@ -85,6 +91,7 @@ Box drawn_extent(const std::vector<const FrameView*>& views, const std::optional
   double r = 0;
   for (const FrameView* view : views) {
     for (const Vec2& p : view->x) take(p);
+    if (view->box_moves()) take(moved_box(*view).lo), take(moved_box(*view).hi);
     for (double radius : view->sample.radius) r = std::max(r, radius);
     if (setup)
       for (const Grip& grip : grips(*view, *setup)) take(grip.bar.lo), take(grip.bar.hi);
@@ -141,7 +148,7 @@ void draw_images(Canvas& canvas, const PageMap& map, const FrameView& view,
   canvas.clipped(cells, [&] {
     for (int j = sample.periodic[1] ? -1 : 0; j <= (sample.periodic[1] ? 1 : 0); ++j)
       for (int i = sample.periodic[0] ? -1 : 0; i <= (sample.periodic[0] ? 1 : 0); ++i)
-        draw(Vec2(i, j).cwiseProduct(sample.box.size()));
+        draw(Vec2(i, j).cwiseProduct(view.box_size()));
   });
 }
 
@@ -155,7 +162,7 @@ std::vector<Vec2> bar_mark(const PageMap& map, const Sample& sample, Index cell,
 
 std::vector<Vec2> link_mark(const PageMap& map, const FrameView& view, Index l, const std::vector<Vec2>& x) {
   const Link link = view.link(l);
-  const Vec2 displaced = link_displacement(view.sample, l);
+  const Vec2 displaced = &x == &view.x ? view.displaced(l) : link_displacement(view.sample, l);
   const Vec2 t = link_frame(link, x, displaced).t, middle = link_middle(link, x, displaced);
   // An end link stands for the half spacing towards its wall's inside.
   double before = 0.5 * link.length, after = before;
@@ -165,6 +172,11 @@ std::vector<Vec2> link_mark(const PageMap& map, const FrameView& view, Index l, 
 }
 
 void draw_grips(Canvas& canvas, const PageMap& map, const FrameView& view, const TestSetup& setup) {
+  if (view.box_moves()) {
+    const Box box = moved_box(view);
+    canvas.outline({map(box.lo), map({box.hi.x(), box.lo.y()}), map(box.hi), map({box.lo.x(), box.hi.y()})},
+                   {kGrip, 1, {}});
+  }
   for (const Grip& grip : grips(view, setup)) {
     const Vec2 a = map(grip.bar.lo), b = map(grip.bar.hi);
     const Box bar{a.cwiseMin(b), a.cwiseMax(b)};

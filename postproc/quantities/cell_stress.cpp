@@ -18,7 +18,7 @@ std::vector<Stress> cell_stress(const FrameView& view, const std::vector<CellSha
     for (std::size_t l = 0; l < sample.links.size(); ++l) {
       if (!view.intact(static_cast<Index>(l))) continue;
       const Link link = view.link(static_cast<Index>(l));
-      const Vec2 displaced = link_displacement(sample, l);
+      const Vec2 displaced = view.displaced(l);
       const LinkFrame frame = link_frame(link, view.x, displaced);
       const Vec2 on_a = (*link_force)[2 * l] * frame.n + (*link_force)[2 * l + 1] * frame.t;
       const Vec2 middle = link_middle(link, view.x, displaced);
@@ -37,7 +37,7 @@ std::vector<Stress> cell_stress(const FrameView& view, const std::vector<CellSha
       const Vec2 on_node = (*contact_force)[2 * k] * n + (*contact_force)[2 * k + 1] * left_of(n);
       act(cell_of[node[k]], on_node, at);
       const Vec2 displaced =
-          image ? Vec2((*image)[2 * k], (*image)[2 * k + 1]).cwiseProduct(sample.box.size()) : Vec2(0, 0);
+          image ? Vec2((*image)[2 * k], (*image)[2 * k + 1]).cwiseProduct(view.box_size()) : Vec2(0, 0);
       act(cell[k], -on_node, at + displaced);
     }
   }

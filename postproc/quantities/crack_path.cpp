@@ -84,10 +84,23 @@ Index farthest(const PathTree& tree, Index source) {
 
 }  // namespace
 
-/// Of a link, at home of its a.
-Vec2 CrackFinder::middle(Index link, const std::vector<Vec2>& x) const {
-  return link_middle(sample_->links[link], x, link_displacement(*sample_, link));
+/// Of a link, at home of its a, at rest and in a frame.
+Vec2 CrackFinder::middle(Index link) const {
+  return link_middle(sample_->links[link], sample_->x, link_displacement(*sample_, link));
 }
+Vec2 CrackFinder::middle(Index link, const FrameView& view) const {
+  return link_middle(sample_->links[link], view.x, view.displaced(link));
+}
+
+namespace {
+
+/// A way by whole boxes at rest, by as many as they are in the frame [m].
+Vec2 in_frame(const Vec2& way, const FrameView& view) {
+  if (!view.box_moves()) return way;
+  return way.cwiseQuotient(view.sample.box.size()).cwiseProduct(view.box_size());
+}
+
+}  // namespace
 
 /// What brings the nearest image of a place to another place [m].
 Vec2 CrackFinder::towards(const Vec2& place, const Vec2& near) const {
@@ -103,7 +116,7 @@ int CrackFinder::around(const Run& run, const Places& places) const {
   if (!sample_->periodic[free_axis_] || run.from >= junctions_ || run.to >= junctions_) return 0;
   Vec2 at = places.rest[run.from];
   for (Index l = run.first; l <= run.last; ++l) {
-    const Vec2 next = middle(l, sample_->x);
+    const Vec2 next = middle(l);
     at = next + towards(next, at);
   }
   const Vec2 end = places.rest[run.to];
@@ -176,10 +189,10 @@ CrackFinder::Places CrackFinder::places_of_junctions(const FrameView& view, cons
                 std::vector<int>(junctions_, 0)};
   const auto take = [&](Index vertex, Index link) {
     if (vertex >= junctions_) return;
-    const Vec2 rest = middle(link, sample_->x);
+    const Vec2 rest = middle(link);
     const int ends = places.ends[vertex]++;
     const Vec2 way = ends > 0 ? towards(rest, places.rest[vertex] / ends) : Vec2(0, 0);
-    places.now[vertex] += middle(link, view.x) + way;
+    places.now[vertex] += middle(link, view) + in_frame(way, view);
     places.rest[vertex] += rest + way;
   };
   for (const Run& run : runs) take(run.from, run.first), take(run.to, run.last);
@@ -194,7 +207,7 @@ CrackLine CrackFinder::make_line(const FrameView& view, const std::vector<Run>& 
   const std::vector<double>* break_time = view.doubles("link_break_time");
   const auto add_point = [&](const Vec2& now, const Vec2& rest) {
     const Vec2 way = line.reference.empty() ? Vec2(0, 0) : towards(rest, line.reference.back());
-    line.points.push_back(now + way);
+    line.points.push_back(now + in_frame(way, view));
     line.reference.push_back(rest + way);
   };
   const auto add_junction = [&](Index vertex) {
@@ -217,9 +230,9 @@ CrackLine CrackFinder::make_line(const FrameView& view, const std::vector<Run>& 
       const Index l = forward ? run.first + k : run.last - k;
       const Link& link = sample_->links[l];
       line.links.push_back(l);
-      add_point(middle(l, view.x), middle(l, sample_->x));
+      add_point(middle(l, view), middle(l));
       line.length += link.length;
-      line.opening += link.length * link_opening(view.link(l), view.x, link_displacement(*sample_, l));
+      line.opening += link.length * link_opening(view.link(l), view.x, view.displaced(l));
       const double time = break_time ? (*break_time)[l] : view.frame.time;
       line.first_time = std::min(line.first_time, time), line.last_time = std::max(line.last_time, time);
     }

@@ -42,7 +42,8 @@ class CrackFinder {
   struct Places;
   std::vector<Run> broken_runs(const FrameView& view) const;
   Places places_of_junctions(const FrameView& view, const std::vector<Run>& runs) const;
-  Vec2 middle(Index link, const std::vector<Vec2>& x) const;
+  Vec2 middle(Index link) const;
+  Vec2 middle(Index link, const FrameView& view) const;
   Vec2 towards(const Vec2& place, const Vec2& near) const;
   int around(const Run& run, const Places& places) const;
   CrackLine make_line(const FrameView& view, const std::vector<Run>& runs, const Places& places,

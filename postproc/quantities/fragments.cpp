@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "generator/sample/union_find.h"
+#include "generator/sample/way_round.h"
 
 namespace lamella {
 namespace {
@@ -48,8 +49,38 @@ Fragments fragments(const FrameView& view) {
   return result;
 }
 
+namespace {
+
+std::vector<Joint> joints_of(const FrameView& view, const Pieces& pieces) {
+  const Sample& sample = view.sample;
+  std::vector<Joint> joints;
+  for (std::size_t l = 0; l < sample.links.size(); ++l)
+    if (view.intact(static_cast<Index>(l)))
+      joints.push_back({pieces.of_node[sample.links[l].a], pieces.of_node[sample.links[l].b],
+                        sample.link_image.empty() ? Image{0, 0} : sample.link_image[l]});
+  return joints;
+}
+
+/// Fragments that go round a box which is pulled, across the pull: as many cracks lie between them and their images.
+int bands(const FrameView& view, const Fragments& fragments, int axis) {
+  const Pieces pieces = pieces_of(view.sample, view.broken_bars());
+  std::vector<Index> fragment_of(pieces.count, 0);
+  for (Index i = 0; i < view.sample.nodes(); ++i) fragment_of[pieces.of_node[i]] = fragments.of_node[i];
+  std::vector<std::vector<Joint>> joints(fragments.count);
+  for (const Joint& joint : joints_of(view, pieces)) joints[fragment_of[joint.a]].push_back(joint);
+  return static_cast<int>(std::count_if(joints.begin(), joints.end(), [&](const std::vector<Joint>& own) {
+    return goes_round(pieces.count, own, 1 - axis);
+  }));
+}
+
+}  // namespace
+
 bool separated(const FrameView& view, int axis) {
   const Sample& sample = view.sample;
+  if (view.box_moves()) {
+    const Pieces parts = pieces_of(sample, view.broken_bars());
+    return !goes_round(parts.count, joints_of(view, parts), axis);
+  }
   const SidePair grip = sides_across(axis);
   const Pieces pieces = pieces_of(sample, view.broken_bars());
   const Index n = pieces.count;
@@ -64,6 +95,7 @@ bool separated(const FrameView& view, int axis) {
 
 int through_cracks(const FrameView& view, const Fragments& pieces, int axis) {
   if (!separated(view, axis)) return 0;
+  if (view.box_moves()) return std::max(1, bands(view, pieces, axis));
   const SidePair grip = sides_across(axis), free = sides_across(1 - axis);
   std::vector<std::uint8_t> of_piece(pieces.count, 0);
   for (Index i = 0; i < view.sample.nodes(); ++i) of_piece[pieces.of_node[i]] |= view.sample.side[i];

@@ -21,11 +21,11 @@ struct SidePair {
 inline SidePair sides_across(int axis) { return axis == 0 ? SidePair{kLeft, kRight} : SidePair{kBottom, kTop}; }
 
 /// True when no path of shells and intact links joins the two sides across `axis`, each side counted as one piece.
-/// False when the sample has no cells at one of them.
+/// False when the sample has no cells at one of them. Of a box that is pulled: when no such path goes round it along the axis.
 bool separated(const FrameView& view, int axis);
 
 /// Cracks that cross the tissue: none while it is not separated; else one, and one more for every fragment that lies between
-/// the grips, from one free side to the other.
+/// the grips, from one free side to the other. In a box that is pulled as many as fragments that go round it across the pull, one at least.
 int through_cracks(const FrameView& view, const Fragments& pieces, int axis);
 
 }  // namespace lamella

@@ -10,7 +10,7 @@ struct LinkFrame {
   Vec2 n, t;  // unit normal from a to b, and unit tangent
 };
 
-// In a periodic sample b is displaced where it faces a: by link_displacement(sample, link).
+// In a periodic sample b is displaced where it faces a: by link_displacement(sample, link), in a frame by FrameView::displaced.
 LinkFrame link_frame(const Link& link, const std::vector<Vec2>& x, const Vec2& displaced = Vec2(0, 0));
 
 /// Beside a.

@@ -8,6 +8,7 @@
 
 #include "simulator/contact/drift.h"
 #include "simulator/contact/images.h"
+#include "simulator/moving_box.h"
 
 namespace lamella {
 namespace {
@@ -172,7 +173,7 @@ bool CandidateRules::candidates(const Field& x, Index node, Index cell, Index se
   const double reach = sample.radius[own] + sample.radius[cell] + skin;
   const bool here = image == Image{0, 0};
   Vec2 p = x.at(node);
-  if (!here) p += displacement(image, sample.box);
+  if (!here) p += displacement(image, box_size(sample, x));
   const Vec2 a = x.at(segment), b = x.at(sample.next(cell, segment));
   // most of the pairs of a square of the grid are farther apart than this, and it needs no division
   if (std::min(a.x(), b.x()) - p.x() >= reach || p.x() - std::max(a.x(), b.x()) >= reach ||
@@ -189,7 +190,7 @@ namespace {
 /// The search of a periodic sample: segments of cells at home, looked at from every image of a node that comes near them.
 CandidateList find_among_images(const CandidateRules& rules, const Field& x) {
   const Sample& sample = rules.sample;
-  const Homes homes(sample, bounding_boxes(sample, x));
+  const Homes homes(sample, box_size(sample, x), bounding_boxes(sample, x));
   const Field at_home = brought_home(sample, homes, x);
   const SegmentGrid grid(rules, at_home);
   const double grow = 2 * *std::max_element(sample.radius.begin(), sample.radius.end()) + rules.skin;

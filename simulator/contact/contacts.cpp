@@ -33,13 +33,28 @@ void add_blocks(const Nodes& nodes, const Matrix& h, StiffnessSink& sink) {
 
 std::array<Index, 3> nodes_of(Index node, const Foot& foot) { return {node, foot.segment, foot.next}; }
 
-constexpr Index kMostNodes = 1 + 2 * kMaxFeet;
+constexpr Index kMostNodes = 2 + 2 * kMaxFeet;  // the box among them
 using LargeMatrix = Eigen::Matrix<double, 2 * kMostNodes, 2 * kMostNodes>;
 
-/// Second derivative of W / k by the positions of all nodes concerned.
-void add_overlap_stiffness(Index node, const Feet& feet, const Overlap& o, double k, const Field& x,
-                           StiffnessSink& sink) {
+/// Adds the rows and columns of a box that displaces the first node of a matrix.
+template <class Matrix>
+void add_box_blocks(Index box, const Vec2& steps, const std::array<Index, 3>& nodes, const Matrix& h,
+                    StiffnessSink& sink) {
+  if (box < 0) return;
+  const Eigen::DiagonalMatrix<double, 2> by(steps);
+  for (int a = 0; a < 3; ++a) {
+    const Eigen::Matrix2d block = by * h.template block<2, 2>(0, 2 * a);
+    sink.add(box, nodes[a], block), sink.add(nodes[a], box, block.transpose());
+  }
+  sink.add(box, box, by * h.template block<2, 2>(0, 0) * by);
+}
+
+/// Second derivative of W / k by the positions of all nodes concerned. A box that displaces the node by its steps is one of them.
+void add_overlap_stiffness(Index node, Index box, const Vec2& steps, const Feet& feet, const Overlap& o, double k,
+                           const Field& x, StiffnessSink& sink) {
   std::vector<Index> nodes{node};
+  if (box >= 0) nodes.push_back(box);
+  const Eigen::DiagonalMatrix<double, 2> by(steps);
   std::array<std::array<int, 3>, kMaxFeet> place{};
   std::array<FootDerivatives, kMaxFeet> d;
   for (int f = 0; f < feet.count; ++f) {
@@ -64,6 +79,12 @@ void add_overlap_stiffness(Index node, const Feet& feet, const Overlap& o, doubl
       for (int a = 0; a < 3; ++a)
         for (int b = 0; b < 3; ++b)
           h.block<2, 2>(2 * place[f][a], 2 * place[g][b]) += k * part.block<2, 2>(2 * a, 2 * b);
+      if (box < 0) continue;
+      for (int a = 0; a < 3; ++a) {
+        h.block<2, 2>(2 * place[f][a], 2) += k * part.block<2, 2>(2 * a, 0) * by;
+        h.block<2, 2>(2, 2 * place[g][a]) += k * by * part.block<2, 2>(0, 2 * a);
+      }
+      h.block<2, 2>(2, 2) += k * by * part.block<2, 2>(0, 0) * by;
     }
   add_blocks(nodes, h, sink);
 }
@@ -111,7 +132,7 @@ double Contacts::dashpot(const Pair& pair) const {
 Contacts::Touch Contacts::touch(const CandidateList& list, const Pair& pair, const Field& x) const {
   Touch out;
   const double range = reach(pair);
-  out.feet = find_feet(sample_, x, pair.node, pair.cell, list.of(pair), range, rules_.broken, shift(pair));
+  out.feet = find_feet(sample_, x, pair.node, pair.cell, list.of(pair), range, rules_.broken, shift(pair, x));
   if (out.feet.count == 0) return out;
   out.overlap = overlap(out.feet, range);
   out.k = stiffness(pair);
@@ -144,6 +165,7 @@ FrictionSpring Contacts::next_spring(const Pair& pair, const Touch& t, const Fie
 bool Contacts::covers(const Field& x) const {
   if (stale_) return false;
   const double most = 0.25 * rules_.skin * rules_.skin;
+  if (box_moves(sample_, x)) return drift_.relative(sample_, x) <= rules_.skin;
   for (std::size_t i = 0; i < x.size(); ++i)
     if (!((x.at(i) - drift_.start().at(i)).squaredNorm() <= most)) return drift_.relative(sample_, x) <= rules_.skin;
   return true;
@@ -156,9 +178,9 @@ double Contacts::safe_share(const Field& x, const Field& way) {
   for (const Pair& pair : list_.pairs)
     for (const Index s : list_.of(pair)) {
       const Index next = sample_.next(pair.cell, s);
-      const Vec2 w = way.at(pair.node);
+      const Vec2 w = way.at(pair.node) + steps_of(pair.image).cwiseProduct(box_growth(sample_, way));
       const double relative = std::sqrt(std::max((w - way.at(s)).squaredNorm(), (w - way.at(next)).squaredNorm()));
-      const double distance = std::sqrt(squared_distance(x.at(pair.node) + shift(pair), x.at(s), x.at(next)));
+      const double distance = std::sqrt(squared_distance(x.at(pair.node) + shift(pair, x), x.at(s), x.at(next)));
       if (share * relative > 0.5 * distance) share = 0.5 * distance / relative;
     }
   // What is not listed is further away than the reach, and what is left of the skin.
@@ -184,34 +206,40 @@ double Contacts::energy(const Field& x) const {
 }
 
 void Contacts::add_force(const Field& x, Field& f) const {
-  const auto add = [&](const std::array<Index, 3>& nodes, const Vector6& force) {
+  const auto add = [&](const Pair& pair, const std::array<Index, 3>& nodes, const Vector6& force) {
     for (int a = 0; a < 3; ++a) f.add(nodes[a], force.segment<2>(2 * a));
+    if (const BoxEntry box = box_of(pair, x); box.node >= 0) f.add(box.node, box.steps.cwiseProduct(force.head<2>()));
   };
   for_each_touch(x, [&](const Pair& pair, const Touch& t) {
     for (int k = 0; k < t.feet.count; ++k) {
       const Foot& foot = t.feet.foot[k];
       const FootDerivatives d = differentiate(foot, x);
-      add(nodes_of(pair.node, foot), t.k * (t.overlap.lambda[k] * d.distance - t.overlap.turn[k] * d.direction));
+      add(pair, nodes_of(pair.node, foot), t.k * (t.overlap.lambda[k] * d.distance - t.overlap.turn[k] * d.direction));
     }
   });
   for_each_spring([&](Index k, const Pair& pair, const FrictionSpring& spring) {
     const Slip moved = slip(spring, x, pair);
-    add({pair.node, spring.segment, spring.next}, -sliding(k, moved).force * slip_gradient(spring, moved));
+    add(pair, {pair.node, spring.segment, spring.next}, -sliding(k, moved).force * slip_gradient(spring, moved));
   });
 }
 
 void Contacts::add_stiffness(const Field& x, StiffnessSink& sink) const {
-  for_each_touch(
-      x, [&](const Pair& pair, const Touch& t) { add_overlap_stiffness(pair.node, t.feet, t.overlap, t.k, x, sink); });
+  for_each_touch(x, [&](const Pair& pair, const Touch& t) {
+    const BoxEntry box = box_of(pair, x);
+    add_overlap_stiffness(pair.node, box.node, box.steps, t.feet, t.overlap, t.k, x, sink);
+  });
   for_each_spring([&](Index k, const Pair& pair, const FrictionSpring& spring) {
     const Slip moved = slip(spring, x, pair);
     const Sliding s = sliding(k, moved);
-    Matrix6 h = s.force * slip_stiffness(spring, x, pair.node, shift(pair));
+    Matrix6 h = s.force * slip_stiffness(spring, x, pair.node, shift(pair, x));
     if (s.slipped == 0) {
       const Vector6 g = slip_gradient(spring, moved);
       h += tangential_stiffness(pair) * g * g.transpose();
     }
-    add_blocks(std::array<Index, 3>{pair.node, spring.segment, spring.next}, h, sink);
+    const std::array<Index, 3> nodes{pair.node, spring.segment, spring.next};
+    add_blocks(nodes, h, sink);
+    const BoxEntry box = box_of(pair, x);
+    add_box_blocks(box.node, box.steps, nodes, h, sink);
   });
 }
 
@@ -296,7 +324,8 @@ void Contacts::evaluate(const Field& x, const Field& v, Index begin, Index end) 
           out.couple += turn.tail<2>();
       }
       if (p_.damping > 0) {
-        const Vec2 relative = v.at(pair.node) - (1 - foot.t) * v.at(foot.segment) - foot.t * v.at(foot.next);
+        const Vec2 relative = v.at(pair.node) + steps_of(pair.image).cwiseProduct(box_growth(sample_, v)) -
+                              (1 - foot.t) * v.at(foot.segment) - foot.t * v.at(foot.next);
         out.damping = std::max(-push, -dashpot(pair) * foot.n.dot(relative)) * foot.n;
       }
     }
@@ -310,6 +339,7 @@ void Contacts::evaluate(const Field& x, const Field& v, Index begin, Index end) 
 }
 
 void Contacts::scatter(Field& f, Field& damped_f) const {
+  const bool box_too = box_moves(sample_, f);
   for (std::size_t k = 0; k < forces_.size(); ++k) {
     const Index node = list_.pairs[k].node;
     for (int a = 0; a < forces_[k]; ++a) {
@@ -321,6 +351,11 @@ void Contacts::scatter(Field& f, Field& damped_f) const {
         damped_f.add(node, out.damping);
         damped_f.add(out.segment, (out.t - 1) * out.damping);
         damped_f.add(out.next, -out.t * out.damping);
+      }
+      if (!box_too) continue;
+      if (const BoxEntry box = box_of(list_.pairs[k], f); box.node >= 0) {
+        f.add(box.node, box.steps.cwiseProduct(out.force));
+        if (p_.damping > 0) damped_f.add(box.node, box.steps.cwiseProduct(out.damping));
       }
     }
   }

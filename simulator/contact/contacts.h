@@ -13,6 +13,7 @@
 #include "simulator/contact/drift.h"
 #include "simulator/contact/friction.h"
 #include "simulator/contact/overlap.h"
+#include "simulator/moving_box.h"
 #include "simulator/terms/term.h"
 
 namespace lamella {
@@ -56,6 +57,8 @@ class Contacts final : public Term {
   /// Makes the list of candidates anew, however good the present one.
   void rebuild(const Field& x);
   double skin() const { return 0.5 * rules_.skin; }
+  /// Steps of the farthest image that a cell may meet, where the box moves.
+  double farthest_image() const { return drift_.farthest_image(); }
   /// k_n of a node that presses on a bare shell [N/m].
   double node_stiffness(Index node) const { return p_.node_stiffness[node]; }
   /// Number of listed pairs.
@@ -104,6 +107,11 @@ class Contacts final : public Term {
     Vec2 couple{0, 0};   // on `next`, and its opposite on `segment` [N]
     Vec2 damping{0, 0};  // on the node [N]
   };
+  /// An entry of the field that displaces a node by its steps; -1: none does.
+  struct BoxEntry {
+    Index node = -1;
+    Vec2 steps{0, 0};
+  };
   using Outcome = std::array<FootForce, kMaxFeet + 1>;  // the last for friction
   struct Touch {
     Feet feet;
@@ -115,9 +123,14 @@ class Contacts final : public Term {
   double tangential_stiffness(const Pair& pair) const { return p_.tangential_ratio * stiffness(pair); }
   double reach(const Pair& pair) const;
   /// Where the node of the pair is, seen from its cell, beside x [m].
-  Vec2 shift(const Pair& pair) const { return displacement(pair.image, sample_.box); }
+  Vec2 shift(const Pair& pair, const Field& x) const { return displacement(pair.image, box_size(sample_, x)); }
   Slip slip(const FrictionSpring& spring, const Field& x, const Pair& pair) const {
-    return slip_of(spring, x, pair.node, shift(pair));
+    return slip_of(spring, x, pair.node, shift(pair, x));
+  }
+  /// The box that displaces the node of the pair, where it moves.
+  BoxEntry box_of(const Pair& pair, const Field& x) const {
+    return box_moves(sample_, x) && pair.image != Image{0, 0} ? BoxEntry{sample_.nodes(), steps_of(pair.image)}
+                                                              : BoxEntry{};
   }
   /// The pairs of the two nodes of a link with the other's cell, a's first; unlisted.
   std::array<Pair, 2> pairs_of(Index link) const;

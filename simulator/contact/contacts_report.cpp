@@ -28,8 +28,9 @@ bool cross_each_other(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d
 
 /// Ordered pairs of cells whose boxes meet, the first of each displaced by the image.
 template <class Visit>
-void for_each_meeting(const Sample& sample, const std::vector<Box>& boxes, Visit visit) {
-  for (const auto& [a, b, image] : meeting_boxes(sample, boxes, 0)) visit(a, b, image), visit(b, a, opposite(image));
+void for_each_meeting(const Sample& sample, const Vec2& period, const std::vector<Box>& boxes, Visit visit) {
+  for (const auto& [a, b, image] : meeting_boxes(sample, period, boxes, 0))
+    visit(a, b, image), visit(b, a, opposite(image));
 }
 
 }  // namespace
@@ -37,9 +38,10 @@ void for_each_meeting(const Sample& sample, const std::vector<Box>& boxes, Visit
 std::vector<Contacts::Inside> Contacts::nodes_inside(const Field& x) const {
   const auto boxes = bounding_boxes(sample_, x);
   std::vector<Inside> found;
-  for_each_meeting(sample_, boxes, [&](Index guest, Index host, const Image& image) {
+  const Vec2 period = box_size(sample_, x);
+  for_each_meeting(sample_, period, boxes, [&](Index guest, Index host, const Image& image) {
     if (!sample_.closed[host] || opened(host)) return;
-    const Vec2 off = displacement(image, sample_.box);
+    const Vec2 off = displacement(image, period);
     for (Index i = sample_.cell_begin[guest]; i < sample_.cell_begin[guest + 1]; ++i)
       if (const Vec2 p = x.at(i) + off; boxes[host].contains(p) && inside(sample_, x, host, p))
         found.push_back({i, host, image});
@@ -58,11 +60,12 @@ std::optional<std::string> Contacts::fault(const Field& x) const {
 
   const auto boxes = bounding_boxes(sample_, x);
   std::optional<std::string> message;
-  for_each_meeting(sample_, boxes, [&](Index guest, Index chain, const Image& image) {
+  const Vec2 period = box_size(sample_, x);
+  for_each_meeting(sample_, period, boxes, [&](Index guest, Index chain, const Image& image) {
     if (message || (sample_.closed[chain] && !opened(chain))) return;
     for (Index i = sample_.cell_begin[guest]; i < sample_.cell_begin[guest + 1]; ++i) {
       if (!sample_.starts_segment(guest, i) || rules_.gone(i)) continue;
-      const Vec2 off = displacement(image, sample_.box);
+      const Vec2 off = displacement(image, period);
       const Vec2 a = x.at(i) + off, b = x.at(sample_.next(guest, i)) + off;
       const Box& box = boxes[chain];
       if ((a.cwiseMax(b).array() < box.lo.array()).any() || (a.cwiseMin(b).array() > box.hi.array()).any()) continue;
@@ -169,7 +172,7 @@ void add_foot_blocks(Index node, const Foot& foot, const Eigen::Matrix2d& m, Sti
 void Contacts::add_possible_stiffness(const Field& x, StiffnessSink& sink) const {
   for (const Pair& pair : list_.pairs) {
     const Feet feet = find_feet(sample_, x, pair.node, pair.cell, list_.of(pair), reach(pair) + 2 * rules_.skin,
-                                rules_.broken, shift(pair));
+                                rules_.broken, shift(pair, x));
     const double k = stiffness(pair), k_t = p_.friction > 0 ? tangential_stiffness(pair) : 0.0;
     for (int f = 0; f < feet.count; ++f) {
       const Vec2 &n = feet.foot[f].n, t = left_of(n);
@@ -183,7 +186,7 @@ void Contacts::add_possible_stiffness(const Field& x, StiffnessSink& sink) const
 void Contacts::add_possible_damping(const Field& x, StiffnessSink& sink) const {
   for (const Pair& pair : list_.pairs) {
     const Feet feet = find_feet(sample_, x, pair.node, pair.cell, list_.of(pair), reach(pair) + 2 * rules_.skin,
-                                rules_.broken, shift(pair));
+                                rules_.broken, shift(pair, x));
     for (int f = 0; f < feet.count; ++f)
       add_foot_blocks(pair.node, feet.foot[f], dashpot(pair) * feet.foot[f].n * feet.foot[f].n.transpose(), sink);
   }

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "simulator/contact/images.h"
+#include "simulator/moving_box.h"
 
 namespace lamella {
 namespace {
@@ -50,8 +51,9 @@ void for_each_meeting_pair(const std::vector<Box>& boxes, double grow, Visit vis
 }
 
 /// The same of a periodic sample: cells are brought home, and those near its sides have copies beyond them.
-std::vector<Meeting> meeting_images(const Sample& sample, const std::vector<Box>& boxes, double grow) {
-  const Homes homes(sample, boxes);
+std::vector<Meeting> meeting_images(const Sample& sample, const Vec2& period, const std::vector<Box>& boxes,
+                                    double grow) {
+  const Homes homes(sample, period, boxes);
   std::vector<Box> copies;
   std::vector<std::pair<Index, Steps>> of_copy;  // its cell, and by how many boxes that is displaced
   for (Index c = 0; c < static_cast<Index>(boxes.size()); ++c)
@@ -76,8 +78,9 @@ std::vector<Meeting> meeting_images(const Sample& sample, const std::vector<Box>
 
 }  // namespace
 
-std::vector<Meeting> meeting_boxes(const Sample& sample, const std::vector<Box>& boxes, double grow) {
-  if (is_periodic(sample)) return meeting_images(sample, boxes, grow);
+std::vector<Meeting> meeting_boxes(const Sample& sample, const Vec2& period, const std::vector<Box>& boxes,
+                                   double grow) {
+  if (is_periodic(sample)) return meeting_images(sample, period, boxes, grow);
   std::vector<Meeting> found;
   for_each_meeting_pair(boxes, grow, [&](Index a, Index b) { found.push_back({a, b, {0, 0}}); });
   std::sort(found.begin(), found.end());
@@ -87,7 +90,12 @@ std::vector<Meeting> meeting_boxes(const Sample& sample, const std::vector<Box>&
 Drift::Drift(const Sample& sample, const Field& x, double reach) : start_(x) {
   const auto boxes = bounding_boxes(sample, x);
   for (const Box& box : boxes) range_ += box.size().mean() / static_cast<double>(boxes.size());
-  for (const Meeting& meeting : meeting_boxes(sample, boxes, 0.5 * (reach + range_)))
+  const Vec2 period = box_size(sample, x);
+  if (box_moves(sample, x)) {
+    list_images(sample, boxes, period, 0.5 * (reach + range_));
+    return;
+  }
+  for (const Meeting& meeting : meeting_boxes(sample, period, boxes, 0.5 * (reach + range_)))
     if (meeting.a != meeting.b && (neighbours_.empty() || neighbours_.back() != std::pair{meeting.a, meeting.b}))
       neighbours_.emplace_back(meeting.a, meeting.b);
 }
@@ -100,6 +108,7 @@ double Drift::relative(const Sample& sample, const Field& x) const {
 
 double Drift::relative_motion(const Sample& sample, const Field& moved) const {
   const auto boxes = bounding_boxes(sample, moved);
+  if (box_moves(sample, moved)) return motion_of_images(boxes, box_growth(sample, moved));
   double most = 0;
   for (const Box& box : boxes) {
     // Cells that were no neighbours have not met while each has moved by less than half of what lay between.
@@ -108,6 +117,39 @@ double Drift::relative_motion(const Sample& sample, const Field& moved) const {
     most = std::max(most, box.size().norm());
   }
   for (const auto& [a, b] : neighbours_) most = std::max(most, farthest(boxes[a], boxes[b]));
+  return most;
+}
+
+// Two cells whose middles are in the box are |k| - 1 boxes apart at least through an image of k steps.
+void Drift::list_images(const Sample& sample, const std::vector<Box>& boxes, const Vec2& period, double grow) {
+  images_ = meeting_boxes(sample, period, boxes, grow);
+  const Homes homes(sample, period, boxes);
+  for (Index c = 0; c < sample.cells(); ++c) {
+    home_.emplace_back(static_cast<double>(homes.home(c)[0]), static_cast<double>(homes.home(c)[1]));
+    const double share = (boxes[c].size().array() + 2 * grow).matrix().cwiseQuotient(period).maxCoeff();
+    reaching_ = std::max(reaching_, 2 + std::floor(share));
+  }
+}
+
+double Drift::motion_of_images(const std::vector<Box>& boxes, const Vec2& growth) const {
+  double most = 0;
+  for (std::size_t c = 0; c < boxes.size(); ++c) {
+    // As above, of the cell at home; half of what an image moves beside it counts for either cell.
+    const Vec2 with = home_[c].cwiseProduct(growth), lo = boxes[c].lo + with, hi = boxes[c].hi + with;
+    if (lo.cwiseAbs().cwiseMax(hi.cwiseAbs()).norm() + 0.5 * reaching_ * growth.norm() > 0.5 * range_)
+      return std::numeric_limits<double>::infinity();
+    most = std::max(most, boxes[c].size().norm());
+  }
+  for (const auto& [a, b, image] : images_) {
+    const Vec2 with = displacement(image, growth);  // of a
+    most = std::max(most, farthest({boxes[a].lo + with, boxes[a].hi + with}, boxes[b]));
+  }
+  return most;
+}
+
+double Drift::farthest_image() const {
+  double most = 0;
+  for (const Meeting& meeting : images_) most = std::max(most, steps_of(meeting.image).norm());
   return most;
 }
 

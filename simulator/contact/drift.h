@@ -20,9 +20,10 @@ struct Meeting {
   auto operator<=>(const Meeting&) const = default;
 };
 
-/// Cells, and images of cells, whose boxes, grown by `grow` on all sides, meet. Each once, in order. Throws SolverError where cells
-/// of a periodic sample have moved apart by more boxes than an image can count.
-std::vector<Meeting> meeting_boxes(const Sample& sample, const std::vector<Box>& boxes, double grow);
+/// Cells, and images of cells, whose boxes, grown by `grow` on all sides, meet. Each once, in order. `period`: lengths of the sample's
+/// box [m]. Throws SolverError where cells of a periodic sample have moved apart by more boxes than an image can count.
+std::vector<Meeting> meeting_boxes(const Sample& sample, const Vec2& period, const std::vector<Box>& boxes,
+                                   double grow);
 
 class Drift {
  public:
@@ -35,12 +36,21 @@ class Drift {
   /// The same of a motion from anywhere on, as long as neighbours are the same [m].
   double relative_motion(const Sample& sample, const Field& moved) const;
   const Field& start() const { return start_; }
+  /// Steps of the farthest image that a cell may meet, where the box moves.
+  double farthest_image() const;
   std::size_t bytes() const { return 2 * sizeof(double) * start_.size() + sizeof(neighbours_[0]) * neighbours_.size(); }
 
  private:
+  void list_images(const Sample& sample, const std::vector<Box>& boxes, const Vec2& period, double grow);
+  double motion_of_images(const std::vector<Box>& boxes, const Vec2& growth) const;
+
   Field start_;
   double range_ = 0;  // cells further apart than this (and the reach) are not neighbours [m]
   std::vector<std::pair<Index, Index>> neighbours_;  // through whatever image: it moves as the cell does
+  // Where the box moves, an image does not.
+  std::vector<Meeting> images_;  // in place of neighbours_
+  std::vector<Vec2> home_;       // per cell: by how many lengths of the box it is displaced at home
+  double reaching_ = 0;          // cells at home may meet through that many steps
 };
 
 }  // namespace lamella

@@ -26,9 +26,9 @@ namespace {
 
 constexpr double kWidest = 16;  // boxes: cells of a tissue reach over one or two, and what has exploded over more
 
-void refuse_too_wide(const Sample& sample, std::size_t cell, const Box& around) {
+void refuse_too_wide(const Sample& sample, const Vec2& period, std::size_t cell, const Box& around) {
   for (int axis = 0; axis < 2; ++axis)
-    if (const double boxes = around.size()[axis] / sample.box.size()[axis]; sample.periodic[axis] && boxes > kWidest)
+    if (const double boxes = around.size()[axis] / period[axis]; sample.periodic[axis] && boxes > kWidest)
       throw SolverError(
           fmt::format("cell {} reaches over {:.3g} lengths of the periodic box along {}; at most {:.0f} are possible",
                       cell, boxes, axis == 0 ? "x" : "y", kWidest));
@@ -43,10 +43,10 @@ std::int64_t Homes::steps(double distance, std::size_t axis, bool up) const {
   return static_cast<std::int64_t>(up ? std::ceil(count) : std::floor(count));
 }
 
-Homes::Homes(const Sample& sample, const std::vector<Box>& around)
-    : periodic_(sample.periodic), period_(sample.box.size()), home_(around.size(), Steps{0, 0}) {
+Homes::Homes(const Sample& sample, const Vec2& period, const std::vector<Box>& around)
+    : periodic_(sample.periodic), period_(period), home_(around.size(), Steps{0, 0}) {
   for (std::size_t c = 0; c < around.size(); ++c) {
-    refuse_too_wide(sample, c, around[c]);
+    refuse_too_wide(sample, period, c, around[c]);
     for (std::size_t axis = 0; axis < 2; ++axis)
       if (periodic_[axis])
         home_[c][axis] = -steps(0.5 * (around[c].lo[axis] + around[c].hi[axis]) - sample.box.lo[axis], axis, false);
@@ -58,6 +58,7 @@ Homes::Homes(const Sample& sample, const std::vector<Box>& around)
 
 Field brought_home(const Sample& sample, const Homes& homes, const Field& x) {
   Field out = x;
+  out.x.resize(sample.x.size()), out.y.resize(sample.x.size());  // without a box that moves
   for (Index c = 0; c < sample.cells(); ++c) {
     const Vec2 off = homes.displacement(homes.home(c));
     for (Index i = sample.cell_begin[c]; i < sample.cell_begin[c + 1]; ++i) out.add(i, off);

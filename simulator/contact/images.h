@@ -19,8 +19,9 @@ Image image_between(const Steps& of_a, const Steps& of_b);
 
 class Homes {
  public:
-  /// `around`: the rectangles around the cells. Throws SolverError where one reaches over more boxes than can be searched.
-  Homes(const Sample& sample, const std::vector<Box>& around);
+  /// `around`: the rectangles around the cells; `period`: lengths of the box [m]. Throws SolverError where one reaches over more boxes than
+  /// can be searched.
+  Homes(const Sample& sample, const Vec2& period, const std::vector<Box>& around);
 
   /// The steps that bring the middle of a cell into the box.
   const Steps& home(Index cell) const { return home_[cell]; }

@@ -5,13 +5,12 @@ namespace lamella {
 // m (x1 - x0 - dt v0) / dt^2 + gamma m (x1 - x0) / dt = m (1 + gamma dt) / dt^2 (x1 - a) with a = x0 + dt v0 / (1 + gamma dt).
 ImplicitStepper::Step BackwardEuler::plan(double dt) const {
   const double slowed = 1 + model().drag_rate * dt;
-  Step step{.share = 1, .per_mass = slowed / (dt * dt), .anchor = state().x};
+  Step step{.share = 1, .per_mass = slowed / (dt * dt), .anchor = start()};
   for (std::size_t i = 0; i < step.anchor.size(); ++i) step.anchor.add(i, dt / slowed * state().v.at(i));
   return step;
 }
 
-void BackwardEuler::finish(double dt, const Field& x0, double energy0) {
-  const Field& x1 = state().x;
+void BackwardEuler::finish(double dt, const Field& x0, const Field& x1, double energy0) {
   Field& v = velocity();
   double drag = 0, jolt = 0, force_work = 0;
   for (std::size_t i = 0; i < x1.size(); ++i) {
@@ -24,7 +23,7 @@ void BackwardEuler::finish(double dt, const Field& x0, double energy0) {
     v.set(i, v1);  // of held nodes too: they go straight
     force_work += terms_force().at(i).dot(way);
   }
-  book_damping(drag + jolt + energy0 - model().energy(x1) - force_work);
+  book_damping(drag + jolt + energy0 - model().energy(state().x) - force_work);
 }
 
 }  // namespace lamella

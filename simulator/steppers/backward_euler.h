@@ -12,7 +12,7 @@ class BackwardEuler final : public ImplicitStepper {
 
  private:
   Step plan(double dt) const override;
-  void finish(double dt, const Field& x0, double energy0) override;
+  void finish(double dt, const Field& x0, const Field& x1, double energy0) override;
 };
 
 }  // namespace lamella

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "simulator/moving_box.h"
+
 namespace lamella {
 namespace {
 
@@ -40,11 +42,11 @@ constexpr double kFarthest = 0.5;
 EquilibriumSolver::EquilibriumSolver(Model& model, const std::vector<Load>& loads)
     : model_(model),
       shell_terms_(model.shell_terms()),
-      free_(static_cast<std::size_t>(model.sample.nodes()), loads),
+      free_(model.mass.size(), loads),
       stiffness_(free_),
       scratch_(model.layout),
-      dead_(model.sample.nodes()),
-      f_(model.sample.nodes()),
+      dead_(model.mass.size()),
+      f_(model.mass.size()),
       least_shift_(kLeastShift) {
   for (Term* term : model.terms())
     if (std::find(shell_terms_.begin(), shell_terms_.end(), term) == shell_terms_.end()) other_terms_.push_back(term);
@@ -102,20 +104,45 @@ void EquilibriumSolver::evaluate(const Field& x, Eigen::VectorXd& free) {
 void EquilibriumSolver::evaluate_all(const Field& x, Eigen::VectorXd& free) {
   evaluate(x, free);
   if (anchor_stiffness_.empty()) return;
+  const Sample& sample = model_.sample;
+  const bool box = box_moves(sample, x);
   for (std::size_t i = 0; i < anchor_stiffness_.size(); ++i) {
-    const Vec2 pull = -anchor_stiffness_[i] * (x.at(i) - anchor_.at(i));
+    const Vec2 pull = -anchor_stiffness_[i] * from_anchor(x, i);
     scale_ = std::max(scale_, pull.norm());
     f_.add(i, pull);
+    if (box && i < sample.x.size()) f_.add(sample.x.size(), -carried_share(sample, i).cwiseProduct(pull));
   }
   free = free_.gathered(f_);
+}
+
+/// x - a of this node; less what the growing box has carried it along by [m].
+Vec2 EquilibriumSolver::from_anchor(const Field& x, std::size_t i) const {
+  const Sample& sample = model_.sample;
+  const Vec2 away = x.at(i) - anchor_.at(i);
+  if (!box_moves(sample, x) || i >= sample.x.size()) return away;
+  return away - carried_share(sample, i).cwiseProduct(box_growth(sample, x));
 }
 
 double EquilibriumSolver::potential(const Field& x) const {
   double sum = model_.energy(x);
   for (std::size_t i = 0; i < x.size(); ++i) sum -= dead_.at(i).dot(x.at(i));
   for (std::size_t i = 0; i < anchor_stiffness_.size(); ++i)
-    sum += 0.5 * anchor_stiffness_[i] * (x.at(i) - anchor_.at(i)).squaredNorm();
+    sum += 0.5 * anchor_stiffness_[i] * from_anchor(x, i).squaredNorm();
   return sum;
+}
+
+// Of 1/2 d (x - s growth - a)^2 all but d by x twice, which stands on the diagonal of each node.
+void EquilibriumSolver::couple_anchors(StiffnessSink& sink) const {
+  const Sample& sample = model_.sample;
+  const Index box = sample.nodes();
+  if (anchor_stiffness_.empty() || box == static_cast<Index>(model_.mass.size()) || !free_.moves(box)) return;
+  Vec2 own = Vec2::Zero();
+  for (Index i = 0; i < box; ++i) {
+    const Vec2 share = carried_share(sample, i), coupling = -anchor_stiffness_[i] * share;
+    sink.add(box, i, coupling.asDiagonal());
+    own -= share.cwiseProduct(coupling);
+  }
+  sink.add(box, box, own.asDiagonal());
 }
 
 double EquilibriumSolver::measure(const Eigen::VectorXd& f) {
@@ -130,6 +157,7 @@ double EquilibriumSolver::measure(const Eigen::VectorXd& f) {
 void EquilibriumSolver::refactor(const Field& x) {
   const bool changed = stiffness_.assemble([&](StiffnessSink& sink) {
     for (const Term* term : model_.terms()) term->add_stiffness(x, sink);
+    couple_anchors(sink);
   });
   if (changed) analyzed_ = false;
   factored_values_ = stiffness_.values();
@@ -361,7 +389,7 @@ void EquilibriumSolver::drop_link(Index link) {
   if (!factored_) return;
   // Its stiffness as the factor holds it.
   std::vector<int> rows;
-  Eigen::MatrixXd k = Eigen::MatrixXd::Zero(12, 12);
+  Eigen::MatrixXd k = Eigen::MatrixXd::Zero(14, 14);  // six nodes, and the box where it moves
   struct Local final : StiffnessSink {
     Local(const FreeComponents& f, std::vector<int>& r, Eigen::MatrixXd& m) : free(f), rows(r), k(m) {}
     int place(int row) {

@@ -21,7 +21,7 @@ class EquilibriumSolver {
 
   /// Forces that do not depend on the positions [N].
   void set_dead_forces(const Field& f);
-  /// d [N/m] of each node, and a [m]. Empty: statics.
+  /// d [N/m] of each node, and a [m]; both of relative coordinates, where a box moves (moving_box.h). Empty: statics.
   void set_anchors(std::vector<double> stiffness, Field positions);
 
   /// Moves the free components of x to rest. Converged: the largest force that is left is below `tolerance` times the largest internal
@@ -68,6 +68,8 @@ class EquilibriumSolver {
 
  private:
   void evaluate_all(const Field& x, Eigen::VectorXd& free);
+  Vec2 from_anchor(const Field& x, std::size_t node) const;
+  void couple_anchors(StiffnessSink& sink) const;
   void refactor(const Field& x);
   bool rush(Field& x, double tolerance);
   bool leave_saddle(Field& x, double height);

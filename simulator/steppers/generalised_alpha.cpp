@@ -1,5 +1,7 @@
 #include "simulator/steppers/generalised_alpha.h"
 
+#include "simulator/moving_box.h"
+
 namespace lamella {
 
 GeneralisedAlpha::GeneralisedAlpha(Model& model, std::vector<Load>& loads, State& state, double residual,
@@ -15,6 +17,7 @@ GeneralisedAlpha::GeneralisedAlpha(Model& model, std::vector<Load>& loads, State
 Field GeneralisedAlpha::acceleration_at_start() const {
   Field a(state().x.size());
   for (const Term* term : model().terms()) term->add_force(state().x, a);
+  make_relative(model().sample, a);
   for (std::size_t i = 0; i < a.size(); ++i)
     for (int c = 0; c < 2; ++c) {
       double& value = (c == 0 ? a.x : a.y)[i];
@@ -32,7 +35,7 @@ Vec2 GeneralisedAlpha::from_start(std::size_t i, double dt) const {
 ImplicitStepper::Step GeneralisedAlpha::plan(double dt) const {
   const double s = 1 - alpha_f_, drag = model().drag_rate;
   const double a = 1 - alpha_m_ + drag * s * dt * gamma_;
-  Step step{.share = s, .per_mass = a / (s * beta_ * dt * dt), .anchor = state().x};
+  Step step{.share = s, .per_mass = a / (s * beta_ * dt * dt), .anchor = start()};
   for (std::size_t i = 0; i < step.anchor.size(); ++i) {
     const Vec2 b = alpha_m_ * a_.at(i) + drag * (state().v.at(i) + s * dt * (1 - gamma_) * a_.at(i));
     step.anchor.add(i, -(a * from_start(i, dt) + b) / step.per_mass);
@@ -40,11 +43,11 @@ ImplicitStepper::Step GeneralisedAlpha::plan(double dt) const {
   return step;
 }
 
-void GeneralisedAlpha::finish(double dt, const Field& x0, double /*energy0*/) {
+void GeneralisedAlpha::finish(double dt, const Field& x0, const Field& x1, double /*energy0*/) {
   Field& v = velocity();
   double drag = 0;
   for (std::size_t i = 0; i < v.size(); ++i) {
-    const Vec2 way = state().x.at(i) - x0.at(i), v0 = v.at(i);
+    const Vec2 way = x1.at(i) - x0.at(i), v0 = v.at(i);
     Vec2 a1 = way / (beta_ * dt * dt) + from_start(i, dt);
     Vec2 v1 = v0 + dt * ((1 - gamma_) * a_.at(i) + gamma_ * a1);
     for (int c = 0; c < 2; ++c)
@@ -57,12 +60,17 @@ void GeneralisedAlpha::finish(double dt, const Field& x0, double /*energy0*/) {
 
 void GeneralisedAlpha::save(ArraySet& restart) const {
   ImplicitStepper::save(restart);
-  restart.add({"acceleration", "m/s2", "node", 2, rows_from(a_)});
+  const Sample& sample = model().sample;
+  restart.add({"acceleration", "m/s2", "node", 2, rows_of_nodes(sample, a_)});
+  if (!box_moves(sample, a_)) return;
+  const Vec2 of_box = a_.at(sample.x.size());
+  restart.add({"box_acceleration", "m/s2", "model", 1, std::vector<double>{of_box.x(), of_box.y()}});
 }
 
 void GeneralisedAlpha::restore(const ArraySet& restart) {
   ImplicitStepper::restore(restart);
   a_ = field_from(restart.doubles("acceleration"));
+  if (restart.find("box_acceleration")) append_box(a_, vec_from(restart.doubles("box_acceleration")));
 }
 
 }  // namespace lamella

@@ -18,7 +18,7 @@ class GeneralisedAlpha final : public ImplicitStepper {
 
  private:
   Step plan(double dt) const override;
-  void finish(double dt, const Field& x0, double energy0) override;
+  void finish(double dt, const Field& x0, const Field& x1, double energy0) override;
   Field acceleration_at_start() const;
   /// a1 = (x1 - x0) / (beta dt^2) + c.
   Vec2 from_start(std::size_t node, double dt) const;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "generator/sample/errors.h"
+#include "simulator/moving_box.h"
 
 namespace lamella {
 
@@ -41,8 +42,10 @@ Field ImplicitStepper::pushes() const {
 }
 
 void ImplicitStepper::step(double dt, double /*kick*/) {
+  const Sample& sample = model_.sample;
   const Field x0 = state_.x;
   const double energy0 = model_.energy(x0);
+  start_ = relative(sample, x0);
   const Field dead = pushes();
   Step plan = this->plan(dt);
   if (plan.per_mass != planned_) solver_.drop_factor();  // made for another step
@@ -54,14 +57,15 @@ void ImplicitStepper::step(double dt, double /*kick*/) {
 
   // What is held goes its way; the rest is first guessed to go on as it was.
   Field y(x0.size());
-  for (std::size_t i = 0; i < y.size(); ++i) y.set(i, x0.at(i) + plan.share * dt * state_.v.at(i));
+  for (std::size_t i = 0; i < y.size(); ++i) y.set(i, start_.at(i) + plan.share * dt * state_.v.at(i));
   for (const Load& load : loads_)
     for (Index i : load.nodes)
       for (int c = 0; c < 2; ++c)
         if (load.holds[c]) {
           prescribed_[2 * static_cast<std::size_t>(i) + c] = load.factor * load.velocity[c];
-          (c == 0 ? y.x : y.y)[i] = x0.at(i)[c] + plan.share * dt * load.factor * load.velocity[c];
+          (c == 0 ? y.x : y.y)[i] = start_.at(i)[c] + plan.share * dt * load.factor * load.velocity[c];
         }
+  y = absolute(sample, std::move(y));
   if (model_.contacts) {
     Field way(y.size());
     for (std::size_t i = 0; i < y.size(); ++i)
@@ -80,17 +84,22 @@ void ImplicitStepper::step(double dt, double /*kick*/) {
         state_.time, dt, solver_.failure(), solver_.residual(), solver_.internal_force(), node, x0.x[node],
         x0.y[node]));
   }
+  y = relative(sample, std::move(y));
+  force_ = solver_.force();
+  make_relative(sample, force_);
+  Field x1(y.size());
   for (std::size_t i = 0; i < y.size(); ++i) {
     // Without the springs, which are inertia and drag, and without the loads.
-    force_.set(i, solver_.force().at(i) + spring[i] * (y.at(i) - plan.anchor.at(i)) - dead.at(i));
-    state_.x.set(i, x0.at(i) + (y.at(i) - x0.at(i)) / plan.share);
+    force_.add(i, spring[i] * (y.at(i) - plan.anchor.at(i)) - dead.at(i));
+    x1.set(i, start_.at(i) + (y.at(i) - start_.at(i)) / plan.share);
   }
+  state_.x = absolute(sample, x1);
   const Field v0 = state_.v;
-  finish(dt, x0, energy0);
+  finish(dt, start_, x1, energy0);
   for (const Load& load : loads_)
     for (std::size_t k = 0; k < load.nodes.size(); ++k) {
       const Index i = load.nodes[k];
-      const Vec2 way = state_.x.at(i) - x0.at(i);
+      const Vec2 way = x1.at(i) - start_.at(i);
       if (load.pushes) works_.loads += load.factor * load.force[k].dot(way);
       for (int c = 0; c < 2; ++c)
         if (load.holds[c]) {  // against all other forces, and against the inertia and the drag of what is held
@@ -126,7 +135,8 @@ Measurement ImplicitStepper::measured_step(double dt, double kick, Field* force_
   const Field dead = pushes();
   solver_.set_dead_forces(dead);
   solver_.evaluate(state_.x, work_);
-  const Field& f = solver_.force();
+  Field f = solver_.force();
+  make_relative(model_.sample, f);
   m.load_force.assign(loads_.size(), Vec2::Zero());
   if (force_on_node) *force_on_node = dead;
   for (std::size_t l = 0; l < loads_.size(); ++l)

@@ -2,7 +2,8 @@
 // way there. What schemes share is here; backward_euler.h and generalised_alpha.h say what they solve and what follows.
 //
 // A step looks for the rest of a system with springs to anchors (equilibrium.h): with the unknown y, M (y - y0) / h^2 + ... = f(y) is the
-// minimum of W(y) - F . y + 1/2 d (y - a)^2. Links are judged where the step ends, all on that one configuration, and break there.
+// minimum of W(y) - F . y + 1/2 d (y - a)^2. Links are judged where the step ends, all on that one configuration, and break there. Where a
+// box moves, y and all that the schemes see are relative coordinates (moving_box.h).
 #pragma once
 #include "simulator/steppers/equilibrium.h"
 #include "simulator/steppers/stepper.h"
@@ -34,9 +35,12 @@ class ImplicitStepper : public Stepper {
     Field anchor;         // [m]
   };
   virtual Step plan(double dt) const = 0;
-  /// x1 is known, in state().x; x0 is where the step began. Sets the velocities; books what the scheme itself has dissipated.
-  virtual void finish(double dt, const Field& x0, double energy0) = 0;
+  /// x1 is known; x0 is where the step began. Sets the velocities; books what the scheme itself
+  /// has dissipated.
+  virtual void finish(double dt, const Field& x0, const Field& x1, double energy0) = 0;
 
+  /// Where the present step begins, or the next one.
+  const Field& start() const { return start_; }
   const State& state() const { return state_; }
   Field& velocity() { return state_.v; }
   const Model& model() const { return model_; }
@@ -58,7 +62,7 @@ class ImplicitStepper : public Stepper {
   State& state_;
   EquilibriumSolver solver_;
   double residual_;
-  Field force_;
+  Field force_, start_;
   Eigen::VectorXd work_;
   std::vector<std::uint8_t> fully_held_;
   std::vector<double> prescribed_;

@@ -121,14 +121,16 @@ namespace {
 /// it off: it stays where it was.
 void keep_in_place(const Sample& sample, const std::vector<Load>& loads, const Field& before, Field& x) {
   for (int c = 0; c < 2; ++c) {
-    const bool loose = std::none_of(loads.begin(), loads.end(),
-                                    [&](const Load& load) { return load.holds[c] || load.pushes_along[c]; });
+    const bool loose = std::none_of(loads.begin(), loads.end(), [&](const Load& load) {
+      return !load.box && (load.holds[c] || load.pushes_along[c]);
+    });
     if (!sample.periodic[static_cast<std::size_t>(c)] || !loose || x.size() == 0) continue;
     const std::vector<double>& from = c == 0 ? before.x : before.y;
     std::vector<double>& to = c == 0 ? x.x : x.y;
     double way = 0;
-    for (std::size_t i = 0; i < to.size(); ++i) way += (to[i] - from[i]) / static_cast<double>(to.size());
-    for (double& at : to) at -= way;
+    const std::size_t nodes = sample.x.size();
+    for (std::size_t i = 0; i < nodes; ++i) way += (to[i] - from[i]) / static_cast<double>(nodes);
+    for (std::size_t i = 0; i < nodes; ++i) to[i] -= way;
   }
 }
 
@@ -442,6 +444,7 @@ void QuasiStatic::save(ArraySet& restart) const {
   for (const Held& h : held_) origin.push_back(h.origin);
   restart.add({"static_origin", "m", "model", 1, std::move(origin)});
   if (behind_.x.size() > 0) save_behind(restart);
+  restart.add({"static_reaction", "N", "model", 1, reaction_});
 }
 
 void QuasiStatic::restore(const ArraySet& restart) {
@@ -453,6 +456,8 @@ void QuasiStatic::restore(const ArraySet& restart) {
   prescribe(time_, x);
   solver_.evaluate(x, work_);
   accept(time_, std::move(x));
+  // As they were found: a sample that is kept in its place has moved since, by rounding.
+  if (restart.find("static_reaction")) reaction_ = restart.doubles("static_reaction");
   works_ = {driver.at(1), driver.at(2), driver.at(3), driver.at(4)};
   avalanches_ = static_cast<std::int64_t>(driver.at(5));
   critical_ = driver.at(6) != 0;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "simulator/moving_box.h"
+
 namespace lamella {
 namespace {
 
@@ -53,6 +55,37 @@ class OneRow final : public StiffnessSink {
   double off_ = 0;
 };
 
+/// In relative coordinates (moving_box.h): passes blocks of nodes on, and sums what those add to the box's own row and, by node, what couples
+/// it to the box. Elements do not change when all of the sample moves, so that a block K_ij couples i to the growth of the box by
+/// K_ij d / L, with d the vector from i to j, through the nearest image, and its own stiffness is half of K_ij (d / L)^2.
+class BesideBox final : public StiffnessSink {
+ public:
+  BesideBox(const Sample& sample, bool free, StiffnessSink& nodes)
+      : coupling(sample.x.size(), 0.0), sample_(sample), free_(free), nodes_(nodes) {}
+  void add(Index i, Index j, const Eigen::Matrix2d& block) override {
+    const Index box = sample_.nodes();
+    if (i == box || j == box) return;
+    nodes_.add(i, j, block);
+    if (i == j) return;
+    double share = 0;
+    for (int c = 0; c < 2; ++c) {
+      const double part = (sample_.x[j][c] - sample_.x[i][c]) / sample_.box.size()[c];
+      if (free_) share = std::max(share, std::abs(part - std::round(part)));
+    }
+    const double norm = spectral_norm(block);
+    coupling[i] += norm * share;
+    own += norm * (share + 0.5 * share * share);
+  }
+
+  std::vector<double> coupling;  // row sums [N/m]
+  double own = 0;                // of the box's row [N/m]
+
+ private:
+  const Sample& sample_;
+  bool free_;
+  StiffnessSink& nodes_;
+};
+
 // A contact that is about to close counts as closed, and a damaged link as whole, as it is again when it is pressed: they cannot surprise
 // the step.
 void add_stiffness(const Model& model, const Term& term, const Field& x, StiffnessSink& sink) {
@@ -69,7 +102,14 @@ void add_stiffness(const Model& model, const Term& term, const Field& x, Stiffne
 StableStep stable_time_step(const Model& model, const Field& x, const std::vector<std::uint8_t>& held) {
   RowSums stiffness(x.size()), damping(model.dashpots || model.contact_damping > 0 ? x.size() : 0);
   const auto terms = model.terms();
-  for (const Term* term : terms) add_stiffness(model, *term, x, stiffness);
+  if (box_moves(model.sample, x)) {
+    BesideBox beside(model.sample, held.back() == 0, stiffness);
+    for (const Term* term : terms) add_stiffness(model, *term, x, beside);
+    for (std::size_t i = 0; i < beside.coupling.size(); ++i) stiffness.off[i] += beside.coupling[i];
+    stiffness.off.back() = beside.own;
+  } else {
+    for (const Term* term : terms) add_stiffness(model, *term, x, stiffness);
+  }
   if (model.dashpots) model.dashpots->add_damping(x, damping);
   if (model.contact_damping > 0) model.contacts->add_possible_damping(x, damping);
 
@@ -85,6 +125,10 @@ StableStep stable_time_step(const Model& model, const Field& x, const std::vecto
   }
   if (!std::isfinite(best.dt)) return best;
 
+  if (best.node == model.sample.nodes()) {
+    best.limited_by = "the box";
+    return best;
+  }
   double total = 0;
   std::vector<double> share;
   for (const Term* term : terms) {

@@ -25,7 +25,12 @@ struct VelocityVerlet::Run {
 VelocityVerlet::~VelocityVerlet() = default;
 
 VelocityVerlet::VelocityVerlet(Model& model, std::vector<Load>& loads, State& state, int threads)
-    : model_(model), loads_(loads), state_(state), team_(std::max(1, threads)), f_(state.x.size()) {
+    : model_(model),
+      loads_(loads),
+      state_(state),
+      team_(std::max(1, threads)),
+      f_(state.x.size()),
+      box_(model, loads, state) {
   const ShellLayout& layout = model.layout;
   const Index blocks = static_cast<Index>(layout.blocks().size());
   if (model.dashpots || model.contact_damping > 0) damped_f_ = Field(state.x.size());
@@ -42,6 +47,7 @@ VelocityVerlet::VelocityVerlet(Model& model, std::vector<Load>& loads, State& st
   runs_.resize(blocks);
   for (std::size_t l = 0; l < loads.size(); ++l) {
     const Load& load = loads[l];
+    if (load.box) continue;
     Index block = 0;
     for (std::size_t k = 0; k < load.nodes.size(); ++k) {
       const Index node = load.nodes[k];
@@ -60,6 +66,7 @@ VelocityVerlet::VelocityVerlet(Model& model, std::vector<Load>& loads, State& st
     }
   }
   for (auto& mask : fully_held_) mask = mask == 3;
+  if (box_.moves()) fully_held_.back() = box_.held[0] && box_.held[1];
   if (model.links && model.links->softens()) booked_.fracture = -model.links->dissipated();  // before this stage
 }
 
@@ -82,6 +89,14 @@ double VelocityVerlet::dropped_kinetic(const std::vector<Break>& breaks, std::si
     sum += 0.5 * kick *
            breaks[k].dropped_frame_force.dot(v.at(link.a_prev) - v.at(link.a_next) + v.at(link.b_next) -
                                              v.at(link.b_prev));
+    if (!box_.moves()) continue;
+    const Sample& s = model_.sample;
+    const auto share = [&](Index node) { return carried_share(s, node); };
+    const Vec2 steps = s.link_image.empty() ? Vec2(0, 0) : steps_of(s.link_image[breaks[k].link]);
+    const Vec2 on_box = breaks[k].dropped_force.cwiseProduct(share(link.a) - share(link.b) - steps) +
+                        breaks[k].dropped_frame_force.cwiseProduct(share(link.a_prev) - share(link.a_next) +
+                                                                   share(link.b_next) - share(link.b_prev));
+    sum += 0.5 * kick * on_box.dot(box_.free_rate());
   }
   return sum;
 }
@@ -101,9 +116,12 @@ double VelocityVerlet::hand_over(const Break& event, double dt) {
     for (const Index c : cells)
       for (Index i = model_.sample.cell_begin[c]; i < model_.sample.cell_begin[c + 1]; ++i) {
         kept.push_back(x.at(i));
-        x.set(i, x.at(i) - dt * state_.v.at(i));
+        x.set(i, x.at(i) - dt * (box_.moves() ? box_.velocity(i) : state_.v.at(i)));
       }
+    const Vec2 growth = box_growth(model_.sample, x);
+    if (box_.moves()) x.set(model_.sample.nodes(), growth - dt * box_.rate());
     const double before = energy();
+    if (box_.moves()) x.set(model_.sample.nodes(), growth);
     std::size_t k = 0;
     for (const Index c : cells)
       for (Index i = model_.sample.cell_begin[c]; i < model_.sample.cell_begin[c + 1]; ++i) x.set(i, kept[k++]);
@@ -124,9 +142,10 @@ void VelocityVerlet::end_walls(std::vector<WallBreak>& now, double dt) {
   Contacts* const contacts = model_.contacts.get();
   CohesiveLinks* const links = model_.links.get();
   const Field& x = state_.x;
+  const Field carried = box_.moves() ? box_.velocities() : Field();
+  const Field& v = box_.moves() ? carried : state_.v;
   Field before(x.size());
-  for (std::size_t i = 0; i < x.size(); ++i)
-    before.x[i] = x.x[i] - dt * state_.v.x[i], before.y[i] = x.y[i] - dt * state_.v.y[i];
+  for (std::size_t i = 0; i < x.size(); ++i) before.x[i] = x.x[i] - dt * v.x[i], before.y[i] = x.y[i] - dt * v.y[i];
   const auto held = [&] {
     double sum = 0;
     if (links) sum += 0.5 * (links->energy(before) + links->energy(x));
@@ -164,10 +183,12 @@ void VelocityVerlet::end_walls(std::vector<WallBreak>& now, double dt) {
 void VelocityVerlet::evaluate_boundary(Index chunk, double kick) {
   for (Index b = model_.layout.chunk(chunk); b < model_.layout.chunk(chunk + 1); ++b) {
     const Index first = model_.links->middle(b), last = model_.links->end(b);
+    sums_[b].box.setZero();
     if (first == last) continue;
     if (model_.links->evaluate(state_.x, first, last, boundary_[b]))
       model_.links->break_exceeded(state_.x, first, last, boundary_[b], broken_[chunk]);
     model_.links->combine(first, last, boundary_[b]);
+    if (box_.moves()) sums_[b].box = model_.links->force_on_box(first, last, boundary_[b]);
   }
   dropped_kinetic_[chunk] = dropped_kinetic(broken_[chunk], 0, kick);
 }
@@ -210,6 +231,7 @@ void VelocityVerlet::sweep_block(Index b, Worker& w, double dt, double kick, Fie
     }
     links->combine(first, last, w.links);
     links->scatter(w.links, first, last, f_);
+    if (box_.moves() && first != last) sums.box += links->force_on_box(first, last, w.links);
   }
   if (model_.gravity) model_.gravity->add_force_to(block.node_begin, block.node_end, f_);
   w.scratch.load(sample, block, x);
@@ -222,6 +244,8 @@ void VelocityVerlet::sweep_block(Index b, Worker& w, double dt, double kick, Fie
     const auto drop = [&](Index node, const Vec2& force) {
       f_.add(node, -force);
       if (!fully_held_[node]) dropped_kinetic_[chunk] += 0.5 * kick * force.dot(v.at(node));
+      if (box_.moves())
+        dropped_kinetic_[chunk] += 0.5 * kick * carried_share(sample, node).cwiseProduct(force).dot(box_.free_rate());
     };
     model_.rupture->break_exceeded(w.scratch, drop, broken_walls_[chunk]);
   }
@@ -237,7 +261,7 @@ void VelocityVerlet::sweep_block(Index b, Worker& w, double dt, double kick, Fie
   if (model_.dashpots) {
     std::fill_n(w.scratch.sx.begin(), block.slots, 0.0);
     std::fill_n(w.scratch.sy.begin(), block.slots, 0.0);
-    w.scratch.load_velocity(sample, v);
+    w.scratch.load_velocity(sample, box_.moves() ? carried_v_ : v);
     model_.dashpots->add_to_block(w.scratch);
     w.scratch.add_section_forces(sample, damped_f_);
   }
@@ -245,6 +269,8 @@ void VelocityVerlet::sweep_block(Index b, Worker& w, double dt, double kick, Fie
   const double *MASS = model_.mass.data(), *IM = model_.inverse_mass.data();
   if (damped_f_.size() > 0)
     for (Index i = block.node_begin; i < block.node_end; ++i) FX[i] += damped_f_.x[i], FY[i] += damped_f_.y[i];
+
+  if (box_.moves()) add_to_box(block, sums);
 
   // loads: forces first, then what holds; a held component leaves the sweep with velocity and force 0 and is moved after it
   double held_kinetic = 0;
@@ -348,6 +374,26 @@ void VelocityVerlet::sweep_block(Index b, Worker& w, double dt, double kick, Fie
   sums.speed = fastest;
 }
 
+// The share of the nodes' forces, complete now.
+void VelocityVerlet::add_to_box(const CellBlock& block, BlockSums& sums) {
+  sums.box_damped.setZero();
+  sums.box += box_.share_of(f_, block.node_begin, block.node_end);
+  if (damped_f_.size() > 0) sums.box_damped = box_.share_of(damped_f_, block.node_begin, block.node_end);
+}
+
+void VelocityVerlet::step_box(double dt, double kick) {
+  const Index node = model_.sample.nodes();
+  Vec2 force = f_.at(node), damped = damped_f_.size() > 0 ? damped_f_.at(node) : Vec2(0, 0);
+  force += damped;
+  for (BlockSums& s : sums_) {
+    force += s.box, damped += s.box_damped;
+    s.box.setZero();
+  }
+  f_.set(node, Vec2(0, 0));
+  if (damped_f_.size() > 0) damped_f_.set(node, Vec2(0, 0));
+  box_.advance(force, damped, dt, kick);
+}
+
 template <bool Measured>
 void VelocityVerlet::advance(double dt, double kick, Field* force_on_node) {
   Contacts* const contacts = model_.contacts.get();
@@ -355,6 +401,8 @@ void VelocityVerlet::advance(double dt, double kick, Field* force_on_node) {
     contacts->update_candidates(state_.x);
     moved_ = 0;
   }
+  if (box_.moves() && damped_f_.size() > 0) carried_v_ = box_.velocities();
+  const Field& v = box_.moves() && damped_f_.size() > 0 ? carried_v_ : state_.v;
   const Index chunks = model_.layout.chunks();
   const bool detour = model_.links && chunks > 1;
   const int team = team_.size();
@@ -363,7 +411,7 @@ void VelocityVerlet::advance(double dt, double kick, Field* force_on_node) {
     const Index first = chunks * thread / team, last = chunks * (thread + 1) / team;
     if (contacts && contacts->active() > 0) {
       const std::int64_t pairs = contacts->active();
-      contacts->evaluate(state_.x, state_.v, static_cast<Index>(pairs * thread / team),
+      contacts->evaluate(state_.x, v, static_cast<Index>(pairs * thread / team),
                          static_cast<Index>(pairs * (thread + 1) / team));
       team_.meet();
       if (thread == 0) contacts->scatter(f_, damped_f_);
@@ -388,7 +436,8 @@ void VelocityVerlet::advance(double dt, double kick, Field* force_on_node) {
   if constexpr (!Measured) std::fill(dropped_kinetic_.begin(), dropped_kinetic_.end(), 0.0);
   double fastest = 0;
   for (const auto& s : sums_) fastest = std::max(fastest, s.speed);
-  moved_ += std::sqrt(fastest) * dt;
+  if (box_.moves()) step_box(dt, kick);
+  moved_ += (box_.moves() ? box_.fastest : std::sqrt(fastest)) * dt;
   if (contacts) contacts->advance();
   std::vector<Break> now;
   for (auto& list : broken_) now.insert(now.end(), list.begin(), list.end()), list.clear();
@@ -417,6 +466,7 @@ Works VelocityVerlet::works_at_start() const {
   for (const auto& runs : runs_)
     for (const Run& run : runs) w.loads += run.work - run.work_out;
   for (const BlockSums& s : sums_) w.damping += s.damping - s.damping_out;
+  w.loads += box_.work - box_.work_out, w.damping += box_.damping - box_.damping_out;
   return w;
 }
 
@@ -437,12 +487,15 @@ Measurement VelocityVerlet::measured_step(double dt, double kick, Field* force_o
   m.load_force.assign(loads_.size(), Vec2::Zero());
   for (const auto& runs : runs_)
     for (const Run& run : runs) m.load_force[run.load] += run.reaction;
+  if (box_.load >= 0) m.load_force[box_.load] += box_.reaction;
+  m.kinetic += box_.kinetic;
   double square = 0, largest = 0;
   for (const BlockSums& s : sums_) {
     m.kinetic += s.kinetic;
     square += s.section_square;
     largest = std::max(largest, s.largest_force);
   }
+  largest = std::max(largest, box_.largest_force * box_.largest_force);
   for (double& dropped : dropped_kinetic_) m.kinetic += std::exchange(dropped, 0.0);
   const double rms = std::sqrt(square / std::max<std::size_t>(1, state_.x.size()));
   m.unbalanced = largest > 0 ? std::sqrt(largest) / (std::sqrt(largest) + rms) : 0.0;
@@ -461,6 +514,7 @@ void VelocityVerlet::save(ArraySet& restart) const {
   restart.add({"stepper_load_work", "J", "run", 1, std::move(loads)});
   restart.add({"stepper_damping", "J", "block", 1, std::move(damping)});
   restart.add({"stepper_booked", "J", "model", 1, std::vector<double>{booked_.fracture, booked_.pressure}});
+  if (box_.moves()) restart.add({"stepper_box", "J", "model", 1, std::vector<double>{box_.work, box_.damping}});
 }
 
 void VelocityVerlet::restore(const ArraySet& restart) {
@@ -473,6 +527,8 @@ void VelocityVerlet::restore(const ArraySet& restart) {
   const auto& booked = restart.doubles("stepper_booked");
   booked_.fracture = booked.at(0);
   if (booked.size() > 1) booked_.pressure = booked[1];  // not in files of before walls could break
+  if (box_.moves())
+    box_.work = restart.doubles("stepper_box").at(0), box_.damping = restart.doubles("stepper_box").at(1);
 }
 
 }  // namespace lamella

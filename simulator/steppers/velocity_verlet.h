@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "generator/sample/team.h"
+#include "simulator/steppers/box_step.h"
 #include "simulator/steppers/stepper.h"
 
 namespace lamella {
@@ -38,12 +39,15 @@ class VelocityVerlet final : public Stepper {
   struct Worker;  // scratch of a thread
   struct BlockSums {
     double damping = 0, damping_out = 0, kinetic = 0, largest_force = 0, section_square = 0, speed = 0;
+    Vec2 box = Vec2::Zero(), box_damped = Vec2::Zero();  // on the growth of a box that moves, in this step [N]
   };
 
   template <bool Measured>
   void advance(double dt, double kick, Field* force_on_node);
   template <bool Measured>
   void sweep_block(Index block, Worker& worker, double dt, double kick, Field* force_on_node);
+  void add_to_box(const CellBlock& block, BlockSums& sums);
+  void step_box(double dt, double kick);
   void evaluate_boundary(Index chunk, double kick);
   void prefetch_block(Index block) const;
   Works works_at_start() const;
@@ -57,6 +61,7 @@ class VelocityVerlet final : public Stepper {
   State& state_;
   Team team_;
   Field f_, damped_f_;  // zero between steps
+  Field carried_v_;     // velocities of nodes that a box carries along, for dashpots [m/s]; empty without either
   std::vector<ShellTerm*> shell_terms_;
   std::vector<Worker> workers_;
   std::vector<std::vector<Run>> runs_;  // per block
@@ -70,6 +75,7 @@ class VelocityVerlet final : public Stepper {
   std::vector<Break> breaks_;
   std::vector<WallBreak> wall_breaks_;
   std::vector<std::uint8_t> fully_held_;
+  BoxStep box_;
   Works booked_;      // all but the cumulative sums of blocks and runs
   double moved_ = 0;  // bound on any node's way since the candidates were last checked [m]
   std::int64_t steps_ = 0;

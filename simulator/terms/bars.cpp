@@ -130,7 +130,7 @@ void Bars::restore(const ArraySet& restart) {
 }
 
 void Bars::add_output(const Field& x, ArraySet& frame) const {
-  std::vector<double> tension(x.size(), 0.0);
+  std::vector<double> tension(layout_.sample().x.size(), 0.0);
   for_each_bar(x, [&](Index, Index i, Index, Index slot, double length) {
     tension[i] = stiffness_[slot] * (length - rest_length_[slot]);
     if (!yield_.empty()) tension[i] = returned(tension[i] - stiffness_[slot] * plastic_[slot], yield_[slot]);

@@ -73,8 +73,8 @@ void CohesiveLinks::make_stations() {
   }
   if (!sample_.link_image.empty())
     for (const Index l : link_) {
-      const Vec2 off = l < 0 ? Vec2(0, 0) : link_displacement(sample_, l);
-      image_x_.push_back(off.x()), image_y_.push_back(off.y());
+      const Vec2 steps = l < 0 ? Vec2(0, 0) : steps_of(sample_.link_image[l]);
+      image_x_.push_back(steps.x()), image_y_.push_back(steps.y());
     }
   if (breakable()) {
     for (const Index l : link_) {
@@ -115,14 +115,15 @@ void CohesiveLinks::add_stations(Index l, bool continues) {
 }
 
 Vec2 CohesiveLinks::middle_of(Index l, const Field& x) const {
-  return 0.5 * (x.at(sample_.links[l].a) + x.at(sample_.links[l].b) + link_displacement(sample_, l));
+  return 0.5 * (x.at(sample_.links[l].a) + x.at(sample_.links[l].b) + displaced(l, x));
 }
 
 CohesiveLinks::State CohesiveLinks::state(const Field& x, Index l) const {
   const Link& link = this->link(l);
   State s;
   s.d = x.at(link.b) - x.at(link.a);
-  if (!sample_.link_image.empty()) s.d += link_displacement(sample_, l);
+  if (!sample_.link_image.empty()) s.d += displaced(l, x);
+  if (box_moves(sample_, x)) s.box = sample_.nodes();
   const Vec2 tau = (x.at(link.a_next) - x.at(link.a_prev)) - (x.at(link.b_next) - x.at(link.b_prev));
   s.tau = tau.norm();
   s.t = tau / s.tau;
@@ -160,8 +161,9 @@ bool CohesiveLinks::evaluate(const Field& x, Index first, Index last, LinkForces
     DX[i] = bx - ax, DY[i] = by - ay, CX[i] = bx + ax, CY[i] = by + ay;
   }
   if (!image_x_.empty()) {
-    const double *IX = image_x_.data() + first, *IY = image_y_.data() + first;
-    for (Index i = 0; i < count; ++i) DX[i] += IX[i], DY[i] += IY[i];
+    const Vec2 box = box_size(sample_, x);
+    const double *IX = image_x_.data() + first, *IY = image_y_.data() + first, lx = box.x(), ly = box.y();
+    for (Index i = 0; i < count; ++i) DX[i] += IX[i] * lx, DY[i] += IY[i] * ly;
   }
   const Index *START = first_.data() + first, *STOP = last_.data() + first;
   const double *KN = k_n_.data() + first, *KT = k_t_.data() + first;
@@ -364,6 +366,18 @@ void CohesiveLinks::add_force(const Field& x, Field& f) const {
   evaluate(x, 0, count, forces);
   combine(0, count, forces);
   scatter(forces, 0, count, f);
+  if (box_moves(sample_, x)) f.add(sample_.nodes(), force_on_box(0, count, forces));
+}
+
+// The force on b is -F, and the box displaces b by its steps.
+Vec2 CohesiveLinks::force_on_box(Index first, Index last, const LinkForces& w) const {
+  Vec2 sum = Vec2::Zero();
+  if (image_x_.empty()) return sum;
+  for (Index i = first; i < last; ++i) {
+    sum.x() -= image_x_[i] * w.fx[i - first + 1];
+    sum.y() -= image_y_[i] * w.fy[i - first + 1];
+  }
+  return sum;
 }
 
 // In the coordinates q = (D, tau): with c_D, c_tau the weights of a node in D and tau, its block with another node is
@@ -403,6 +417,14 @@ void CohesiveLinks::add_stiffness_of(Index l, const State& s, StiffnessSink& sin
       const Eigen::Matrix2d& block = p.d != 0 ? (q.d != 0 ? dd : d_tau) : (q.d != 0 ? tau_d : tau_tau);
       sink.add(p.node, q.node, ((p.d + p.tau) * (q.d + q.tau)) * block);
     }
+  if (s.box < 0 || sample_.link_image[l] == Image{0, 0}) return;
+  // The box displaces b by its steps: it has b's weight in D, times those.
+  const Eigen::DiagonalMatrix<double, 2> steps(steps_of(sample_.link_image[l]));
+  for (const Role& q : roles) {
+    const Eigen::Matrix2d block = (q.d + q.tau) * (steps * (q.d != 0 ? dd : d_tau));
+    sink.add(s.box, q.node, block), sink.add(q.node, s.box, block.transpose());
+  }
+  sink.add(s.box, s.box, steps * dd * steps);
 }
 
 double CohesiveLinks::mode_mix_of(const Break& b) const {

@@ -11,6 +11,7 @@
 
 #include "generator/sample/broken_bars.h"
 #include "simulator/laws/cohesive_zone.h"
+#include "simulator/moving_box.h"
 #include "simulator/shells.h"
 #include "simulator/terms/term.h"
 
@@ -89,6 +90,8 @@ class CohesiveLinks final : public Term {
   void break_exceeded(const Field& x, Index begin, Index end, LinkForces& forces, std::vector<Break>& breaks);
   /// Turns the results of `evaluate` into the force on each station's a (in cx, cy) and b (in dx, dy).
   void combine(Index begin, Index end, LinkForces& forces) const;
+  /// Force of stations [begin, end) on the lengths of a box that moves, from the results of `evaluate` [N].
+  Vec2 force_on_box(Index begin, Index end, const LinkForces& forces) const;
   /// Adds combined forces to the nodes, one station after the other: the same sum for any number of threads.
   void scatter(const LinkForces& forces, Index begin, Index end, Field& f) const;
   /// The same for one side of stations [begin, end), whose results start at `at`.
@@ -156,8 +159,13 @@ class CohesiveLinks final : public Term {
     double k_nn = 0, k_nt = 0, k_tt = 0;  // second derivatives of the potential with respect to the openings [N/m]
     double damage = 0;
     bool advances = false;  // damage grows here
+    Index box = -1;         // entry of the box, where it moves
   };
   State state(const Field& x, Index link) const;
+  /// By which b is displaced where it faces a [m].
+  Vec2 displaced(Index link, const Field& x) const {
+    return sample_.link_image.empty() ? Vec2(0, 0) : displacement(sample_.link_image[link], box_size(sample_, x));
+  }
   /// Where the middle between its nodes is, beside a [m].
   Vec2 middle_of(Index link, const Field& x) const;
   Break broken_at(const Field& x, Index link) const;
@@ -187,7 +195,8 @@ class CohesiveLinks final : public Term {
   // loops 64 stations at a time, which spills its registers and leaves most stations of a block to the scalar remainder.
   std::vector<Index> first_, last_;
   std::vector<double> k_n_, k_t_, offset_n_, offset_t_;
-  std::vector<double> image_x_, image_y_;  // displacement of b [m]; empty unless the sample is periodic
+  std::vector<double> image_x_,
+      image_y_;  // displacement of b, in lengths of the box; empty unless the sample is periodic
   std::vector<double> inverse_strength_n_, inverse_strength_t_;  // [1/N]; empty: links never break
   std::vector<Index> station_;                                   // of each link of the sample
   // per link of the sample

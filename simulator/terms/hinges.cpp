@@ -164,7 +164,7 @@ void Hinges::restore(const ArraySet& restart) {
 }
 
 void Hinges::add_output(const Field& x, ArraySet& frame) const {
-  std::vector<double> moment(x.size(), 0.0), plastic;
+  std::vector<double> moment(layout_.sample().x.size(), 0.0), plastic;
   for_each_hinge(x, [&](Index, Index, Index i, Index, Index slot, double trial) {
     moment[i] = yield_.empty() ? trial : returned(trial, yield_[slot]);
   });

@@ -93,6 +93,46 @@ TEST(PeriodicMeshes, have_no_link_longer_than_its_gap) {
   }
 }
 
+/// A torus torn below this row, which its box has grown by; or not torn.
+Frame torn_box(const Sample& s, const std::vector<int>& rows, double by) {
+  std::vector<Vec2> x = s.x;
+  std::vector<Index> broken;
+  for (const int row : rows) {
+    for (Index i = s.cell_begin[row * kColumns]; i < s.nodes(); ++i) x[i].y() += by;
+    for (const Index l : between_rows(s, row - 1)) broken.push_back(l);
+  }
+  Frame frame = plain_frame(s, x, 2);
+  const Vec2 size = s.box.size() + Vec2(0, by * static_cast<double>(rows.size()));
+  frame.arrays.add({"box_size", "m", "model", 1, std::vector<double>{size.x(), size.y()}});
+  if (!broken.empty()) break_links(frame, broken, 1.5);
+  return frame;
+}
+
+TEST(PulledBox, is_drawn_and_judged_by_its_lengths_in_the_frame) {
+  const Sample s = hexagons(kRows, kColumns, 4, kGap, {true, true});
+  const Frame whole = torn_box(s, {}, 0), one = torn_box(s, {2}, 0.3), two = torn_box(s, {1, 3}, 0.3);
+  const FrameView before(s, whole), view(s, one), twice(s, two);
+  EXPECT_FALSE(separated(before, 1));
+  EXPECT_EQ(through_cracks(before, fragments(before), 1), 0);
+  // One crack leaves one piece, which goes round across the pull, and not along it.
+  EXPECT_EQ(fragments(view).count, 1);
+  EXPECT_TRUE(separated(view, 1));
+  EXPECT_FALSE(separated(view, 0));
+  EXPECT_EQ(through_cracks(view, fragments(view), 1), 1);
+  EXPECT_EQ(fragments(twice).count, 2);
+  EXPECT_EQ(through_cracks(twice, fragments(twice), 1), 2);
+  // Links that hold are as long as they were, through the sides too.
+  const Mesh mesh = links_mesh(view);
+  for (std::size_t l = 0; l < s.links.size(); ++l) {
+    if (!view.intact(static_cast<Index>(l))) continue;
+    EXPECT_NEAR((mesh.points[2 * l + 1] - mesh.points[2 * l]).norm(), kGap, 1e-12);
+  }
+  const std::vector<Crack> cracks = CrackFinder(s, 0).find(view);
+  ASSERT_EQ(cracks.size(), 1u);
+  EXPECT_TRUE(cracks[0].from_side_to_side);
+  EXPECT_NEAR(cracks[0].lines[0].opening, 0.3 * std::cos(std::numbers::pi / 6), 1e-9);
+}
+
 TEST(PeriodicStress, of_cells_does_not_depend_on_which_image_is_at_home) {
   const Sample s = strip(), t = rehomed(s);
   const auto stresses = [](const Sample& of) {

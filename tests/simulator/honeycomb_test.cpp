@@ -1,4 +1,6 @@
 // The honeycomb with one segment a side (physics 2e): moduli and first link break, against closed forms.
+#include "simulator/moving_box.h"
+#include "simulator/steppers/quasi_static.h"
 #include "tests/simulator/tissues.h"
 
 namespace lamella {
@@ -141,6 +143,39 @@ TEST(Honeycomb, that_repeats_in_its_box_has_the_moduli_of_one_among_copies_of_it
     const double held = s(axis, axis) / strain(axis, axis);
     for (const auto& [rows, columns] : {std::pair{2, 1}, {2, 3}, {4, 2}})
       EXPECT_NEAR(2 * energy_of_stretched_box(rows, columns, axis) / held, 1, 1e-5) << rows << " x " << columns;
+  }
+}
+
+// Pulled by its box, which is free across.
+TEST(Honeycomb, whose_box_is_pulled_has_the_modulus_and_the_poisson_ratio_of_one_among_copies_of_itself) {
+  const Patch p;
+  const Field rest = field_of(p.sample.x);
+  const auto unit = build_model(p.sample, honeycomb_stage(100, {}), rest);
+  for (const int axis : {0, 1}) {
+    const Eigen::Matrix2d exact = uniaxial_strain(p, *unit, rest, axis);
+    for (const auto& [rows, columns] : {std::pair{2, 1}, {2, 3}, {4, 2}}) {
+      const Sample s = hexagons(rows, columns, 1, kGap, {true, true});
+      Stage stage = honeycomb_stage(100, {});
+      stage.loading = LoadingScene{};
+      stage.loading->axis = axis == 0 ? "x" : "y";
+      stage.loading->strain = stage.loading->strain_rate.emplace(1e-7);
+      stage.loading->normal_only = true;
+      Field x = field_of(s.x);
+      append_box(x, Vec2(0, 0));
+      const auto model = build_model(s, stage, x);
+      const auto loads = build_loads(s, stage);
+      const Gauge gauge = measure_gauge(s, stage, loads);
+      const LoadPath path(stage, gauge);
+      QuasiStaticSettings settings;
+      settings.longest = 1, settings.residual = 1e-10;
+      QuasiStatic stepper(*model, loads, path, x, 0.0, settings);
+      stepper.settle();
+      stepper.load_towards(1, [] { return true; });
+      const double stress = grip_forces(gauge, stepper.load_forces())[1] / (gauge.width * gauge.depth);
+      const Vec2 strain = box_growth(s, stepper.x()).cwiseQuotient(s.box.size());
+      EXPECT_NEAR(strain[axis] / stress / exact(axis, axis), 1, 1e-5) << rows << " x " << columns;
+      EXPECT_NEAR(strain[1 - axis] / strain[axis] / (exact(1 - axis, 1 - axis) / exact(axis, axis)), 1, 1e-5);
+    }
   }
 }
 
