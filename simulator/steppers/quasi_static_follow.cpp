@@ -126,7 +126,7 @@ bool QuasiStatic::follow_branch(double end) {
 }
 
 void QuasiStatic::save_behind(ArraySet& restart) const {
-  restart.add({"static_behind", "m", "node", 2, rows_from(behind_.x)});
+  restart.add({"static_behind", "m", "model", 1, rows_from(behind_.x)});  // a box that moves has an entry
   restart.add({"static_branch", "1", "model", 1,
                std::vector<double>{behind_.time, behind_.length, following_ ? 1.0 : 0.0, behind_.spent_at_start,
                                    static_cast<double>(behind_.fruitless)}});
