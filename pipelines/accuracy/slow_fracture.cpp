@@ -312,8 +312,10 @@ constexpr int kCellsForAll = 400;  // methods that are dear are tried on tissues
 void larger_tissues(StudyBench& bench, const std::vector<int>& sizes) {
   bench.report.text(
       "**Larger tissues.** One sample each, cells as large as above; in brackets how far off the first row. Overdamped "
-      "in time; the "
-      "explicit step at the smallest size only, and the dearer implicit ones up to 400 cells:");
+      "in time; the explicit step at the smallest size only, and the dearer implicit ones up to 400 cells. "
+      "Where drag holds back, what the grips do takes time to reach the middle, in proportion to the square of the "
+      "way: "
+      "a slowdown that is slow for a small tissue is fast for a large one.");
   ReportTable table{{"cells", "links", "method", "peak stress [kPa]", "strain at peak [%]", "work [uJ]", "broken links",
                      "overlap", "of walls", "CPU s"},
                     {}};
