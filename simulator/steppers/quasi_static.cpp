@@ -13,7 +13,10 @@ namespace {
 
 constexpr int kMostTries = 60;        // of one increment
 constexpr int kMostSearches = 20000;  // on the way through it
-constexpr double kShortest = 1e-12;   // increment, over the longest: below, a jump of the criterion is a jump
+// Less than this part of the longest increment in so many searches is no way through it.
+constexpr int kPatientSearches = 500;
+constexpr double kLeastProgress = 1e-2;
+constexpr double kShortest = 1e-12;  // increment, over the longest: below, a jump of the criterion is a jump
 constexpr double kFall = 1e-2;  // increment, over the longest: where it still leads to another branch, the sample falls
 constexpr double kWild = 0.1;   // share of a first-order motion that contacts allow: below, it is not used
 constexpr double kProbe = 1e-4;  // way of a grip from which its tangent is found, in mean segments
@@ -203,6 +206,7 @@ void QuasiStatic::load_towards(double end, const std::function<bool()>& go_on) {
   const double began = time_;
   if (following_ && follow_branch(end)) return;
   int searches = 0;
+  double patient_since = time_;
   while (time_ < target && !critical_ && over_.empty() && go_on()) {
     // Where searches have failed, the next one goes no further than twice the last that did not.
     const double h = std::min(target - time_, trusted_);
@@ -252,7 +256,9 @@ void QuasiStatic::load_towards(double end, const std::function<bool()>& go_on) {
       there = wild ? x_ : lower_start(time_ + step, predicted(step));
     };
     for (int tries = 0;; ++tries) {
-      if (++searches > kMostSearches)
+      const bool creeps = ++searches % kPatientSearches == 0 &&
+                          time_ - std::exchange(patient_since, time_) < kLeastProgress * settings_.longest;
+      if (creeps || searches > kMostSearches)
         return give_up("no equilibrium under a little more load, in many small steps", time_ + step);
       if (!try_at(time_ + step, there)) {
         if ((softens_ || settings_.follow) && step <= shortest_leap) return leave_branch(time_ + step, x_);
