@@ -69,7 +69,7 @@ std::vector<std::int32_t> NeighbourGrid::order(const DiskArrays& disks) {
   return place;
 }
 
-Neighbours NeighbourGrid::list(const DiskArrays& disks, const std::vector<Wall>& walls, double skin) const {
+Neighbours NeighbourGrid::list(const DiskArrays& disks, const std::vector<StraightWall>& walls, double skin) const {
   constexpr std::size_t kPiece = 4096;
   const auto count = static_cast<std::size_t>(disks.count);
   std::vector<Neighbours> pieces((count + kPiece - 1) / kPiece);
@@ -126,7 +126,7 @@ Neighbours NeighbourGrid::pairs(const DiskArrays& disks, double skin, std::int32
   return list;
 }
 
-void NeighbourGrid::list_at_walls(const DiskArrays& disks, const std::vector<Wall>& walls, double skin,
+void NeighbourGrid::list_at_walls(const DiskArrays& disks, const std::vector<StraightWall>& walls, double skin,
                                   Neighbours& list) const {
   const auto& [x, y, radius, count] = disks;
   const double far = radius.head(count).maxCoeff() + skin;

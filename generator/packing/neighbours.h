@@ -10,7 +10,7 @@
 namespace lamella {
 
 /// A straight piece of the boundary that disks must not cross [m].
-struct Wall {
+struct StraightWall {
   Vec2 a = Vec2::Zero(), b = Vec2::Zero();
 };
 
@@ -42,13 +42,14 @@ class NeighbourGrid {
   std::vector<std::int32_t> order(const DiskArrays& disks);
 
   /// All pairs, and disks at walls, that are less than `skin` apart. The disks were put in the order that the grid told.
-  Neighbours list(const DiskArrays& disks, const std::vector<Wall>& walls, double skin) const;
+  Neighbours list(const DiskArrays& disks, const std::vector<StraightWall>& walls, double skin) const;
 
  private:
   int column(double x) const;
   int row(double y) const;
   Neighbours pairs(const DiskArrays& disks, double skin, std::int32_t from, std::int32_t to) const;
-  void list_at_walls(const DiskArrays& disks, const std::vector<Wall>& walls, double skin, Neighbours& list) const;
+  void list_at_walls(const DiskArrays& disks, const std::vector<StraightWall>& walls, double skin,
+                     Neighbours& list) const;
 
   Vec2 size_;
   Periodic periodic_;

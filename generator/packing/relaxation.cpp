@@ -28,7 +28,7 @@ constexpr int kFewestShared =
     20000;  // disks; steps of fewer are so short that threads wait for each other longer than they work
 constexpr double kTiny = 1e-150;  // added to lengths that are divided by
 
-bool crosses(const Wall& wall, const Vec2& from, const Vec2& to) {
+bool crosses(const StraightWall& wall, const Vec2& from, const Vec2& to) {
   const Vec2 d = wall.b - wall.a;
   const double side = cross(d, from - wall.a), other_side = cross(d, to - wall.a);
   if ((side > 0) == (other_side > 0)) return false;
@@ -239,7 +239,7 @@ class Fire {
 
   void add_walls(Sums& sums) {
     for (const auto& [i, w] : list_.at_wall) {
-      const Wall& wall = disks_.walls[w];
+      const StraightWall& wall = disks_.walls[w];
       const Vec2 along = wall.b - wall.a, from = Vec2(x_[i], y_[i]) - wall.a;
       const Vec2 d = from - std::clamp(from.dot(along) / along.squaredNorm(), 0.0, 1.0) * along;
       const double distance = d.norm(), overlap = radius_[i] - distance;

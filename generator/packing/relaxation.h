@@ -14,7 +14,7 @@ struct SoftDisks {
   Vec2 size = Vec2::Zero();
   double area = 0;  // that they fill: of the box, or of what the walls leave of it
   Periodic periodic{false, false};
-  std::vector<Wall> walls;  // more of them, inside the box; no centre crosses one
+  std::vector<StraightWall> walls;  // more of them, inside the box; no centre crosses one
   std::vector<Vec2> x;
   std::vector<double> radius;
 };

@@ -84,7 +84,7 @@ TEST(neighbours, are_all_pairs_closer_than_the_skin_each_once) {
 }
 
 TEST(neighbours, of_walls_are_all_disks_closer_than_the_skin) {
-  const std::vector<Wall> walls{{{0.1, 0.1}, {0.9, 0.2}}, {{0.5, 0.65}, {0.52, 0.6}}, {{0, 0.3}, {0, 0.4}}};
+  const std::vector<StraightWall> walls{{{0.1, 0.1}, {0.9, 0.2}}, {{0.5, 0.65}, {0.52, 0.6}}, {{0, 0.3}, {0, 0.4}}};
   const auto disks = random_disks(200, 0.05, 3, 1, 0.7);
   NeighbourGrid grid({1, 0.7}, {false, false}, 0.06);
   const Arrays a = sorted(disks, grid);
