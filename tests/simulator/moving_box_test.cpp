@@ -18,16 +18,6 @@
 namespace lamella {
 namespace {
 
-Stage stage_of(std::optional<double> strength = {}, double friction = 0) {
-  Stage stage;
-  stage.cells["cells"] = cell_scene(400, 0.5, 1);
-  stage.links["links"] = link_scene("length", 800, 300, strength);
-  stage.contact = ContactScene{};
-  stage.contact->friction = friction;
-  stage.drag = DragScene{0.5};
-  return stage;
-}
-
 Stage softening(double strength, double toughness) {
   Stage stage = stage_of(strength);
   stage.links["links"].law = "cohesive_zone";

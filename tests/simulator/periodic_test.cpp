@@ -23,16 +23,6 @@ Sample strip(int columns = kColumns, int segments = 2) {
   return hexagons(kRows, columns, segments, 0.1, {true, false});
 }
 
-Stage stage_of(std::optional<double> strength = {}, double friction = 0) {
-  Stage stage;
-  stage.cells["cells"] = cell_scene(400, 0.5, 1);
-  stage.links["links"] = link_scene("length", 800, 300, strength);
-  stage.contact = ContactScene{};
-  stage.contact->friction = friction;
-  stage.drag = DragScene{0.5};
-  return stage;
-}
-
 /// By how many boxes each cell is moved.
 using Shifts = std::vector<Image>;
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "generator/sample/errors.h"
+#include "tests/simulator/static_rig.h"
 #include "tests/simulator/tissues.h"
 #include "tests/support/samples.h"
 
@@ -11,34 +12,6 @@
 
 namespace lamella {
 namespace {
-
-/// A model, its loads and the stepper at rest, for a time of 1.
-struct StaticRig {
-  StaticRig(const Sample& sample, const Stage& with, std::vector<Load> l, QuasiStaticSettings settings = {})
-      : stage(with), model(build_model(sample, stage, field_of(sample.x))), loads(std::move(l)), path(timed(), {}) {
-    if (settings.longest == 0) settings.longest = 0.01;
-    stepper.emplace(*model, loads, path, field_of(sample.x), 0.0, settings);
-    stepper->settle();
-  }
-  const Stage& timed() {
-    stage.stop.time = 1;
-    return stage;
-  }
-  double energy() const { return model->energy(stepper->x()); }
-  /// Up to the end, or until it is over.
-  void run() {
-    while (stepper->time() < 1 && stepper->over().empty()) {
-      stepper->load_towards(1, [] { return true; });
-      if (stepper->critical()) stepper->fall([] { return true; });
-    }
-  }
-
-  Stage stage;
-  std::unique_ptr<Model> model;
-  std::vector<Load> loads;
-  LoadPath path;
-  std::optional<QuasiStatic> stepper;
-};
 
 Load held(std::vector<Index> nodes, bool x, bool y) {
   Load load;

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "simulator/steppers/quasi_static.h"
+#include "tests/simulator/static_rig.h"
 #include "tests/simulator/tissues.h"
 #include "tests/support/samples.h"
 
@@ -10,31 +10,6 @@
 
 namespace lamella {
 namespace {
-
-/// A model that softens, its loads and the stepper at rest, for a time of 1.
-struct SofteningRig {
-  SofteningRig(const Sample& sample, const Stage& with, std::vector<Load> l, const QuasiStaticSettings& settings)
-      : stage(with), model(build_model(sample, stage, field_of(sample.x))), loads(std::move(l)), path(timed(), {}) {
-    stepper.emplace(*model, loads, path, field_of(sample.x), 0.0, settings);
-    stepper->settle();
-  }
-  const Stage& timed() {
-    stage.stop.time = 1;
-    return stage;
-  }
-  double energy() const { return model->energy(stepper->x()); }
-  /// What the work exceeds what it has become by, over it.
-  double open() const {
-    const StaticWorks w = stepper->works();
-    return std::abs(w.loads - energy() - w.fracture - w.released) / w.loads;
-  }
-
-  Stage stage;
-  std::unique_ptr<Model> model;
-  std::vector<Load> loads;
-  LoadPath path;
-  std::optional<QuasiStatic> stepper;
-};
 
 LinkScene softening(const char* per, double k_n, double k_t, double strength, double toughness) {
   LinkScene links = link_scene(per, k_n, k_t, strength);
@@ -86,7 +61,7 @@ struct LinkBetweenBars {
 
 TEST(SofteningAtRest, a_load_follows_a_link_in_series_with_springs_back_along_its_closed_form) {
   const LinkBetweenBars series;
-  SofteningRig rig(series.sample, series.stage, series.loads, {.residual = 1e-7, .follow = true, .longest = 0.02});
+  StaticRig rig(series.sample, series.stage, series.loads, {.residual = 1e-7, .follow = true, .longest = 0.02});
   double least_after_peak = 1, peak = 0;
   int on_the_way_back = 0;
   for (int k = 0; rig.stepper->time() < 1 && k < 1000; ++k) {
@@ -112,7 +87,7 @@ TEST(SofteningAtRest, a_load_follows_a_link_in_series_with_springs_back_along_it
 
 TEST(SofteningAtRest, a_link_in_series_with_springs_falls_where_its_closed_form_turns_back_and_releases_what_is_left) {
   const LinkBetweenBars series;
-  SofteningRig rig(series.sample, series.stage, series.loads, {.residual = 1e-7, .longest = 0.02});
+  StaticRig rig(series.sample, series.stage, series.loads, {.residual = 1e-7, .longest = 0.02});
   double last = 0;  // way before the fall
   while (rig.stepper->time() < 1) {
     rig.stepper->load_towards(1, [] { return true; });
@@ -141,7 +116,7 @@ struct SofteningTissue {
 
 TEST(SofteningAtRest, the_area_under_a_followed_curve_is_what_fracture_took) {
   const SofteningTissue tissue;
-  SofteningRig rig(tissue.sample, tissue.stage, tissue.loads(0.15), {.follow = true, .longest = 0.02});
+  StaticRig rig(tissue.sample, tissue.stage, tissue.loads(0.15), {.follow = true, .longest = 0.02});
   double farthest = 0, back = 0, toughness = 0;
   while (rig.stepper->time() < 1) {
     rig.stepper->load_towards(1, [] { return true; });
@@ -172,7 +147,7 @@ TEST(SofteningAtRest, an_arch_behind_a_spring_is_followed_through_its_snap_back)
   apex.nodes = {1}, apex.holds[0] = true;
   top.nodes = {2}, top.holds[0] = top.holds[1] = true, top.velocity = {0, -0.8};
   for (const bool follow : {true, false}) {
-    SofteningRig rig(arch, stage, {pin, apex, top}, {.residual = 1e-6, .follow = follow, .longest = 0.02});
+    StaticRig rig(arch, stage, {pin, apex, top}, {.residual = 1e-6, .follow = follow, .longest = 0.02});
     int past = 0;
     bool back = false;
     double last = 0;
@@ -197,7 +172,7 @@ TEST(SofteningAtRest, strength_and_ledger_do_not_hang_on_residual_or_load_step) 
   const SofteningTissue tissue;
   std::vector<double> peaks;
   for (const auto& [residual, longest] : {std::pair{1e-4, 0.02}, {1e-6, 0.02}, {1e-4, 0.01}}) {
-    SofteningRig rig(tissue.sample, tissue.stage, tissue.loads(0.15), {.residual = residual, .longest = longest});
+    StaticRig rig(tissue.sample, tissue.stage, tissue.loads(0.15), {.residual = residual, .longest = longest});
     double peak = 0;
     while (rig.stepper->time() < 1) {
       rig.stepper->load_towards(1, [] { return true; });

@@ -28,6 +28,17 @@ inline LinkScene link_scene(const char* per, double k_n, double k_t, std::option
   return links;
 }
 
+/// Links that hold or break, contact, and drag.
+inline Stage stage_of(std::optional<double> strength = {}, double friction = 0) {
+  Stage stage;
+  stage.cells["cells"] = cell_scene(400, 0.5, 1);
+  stage.links["links"] = link_scene("length", 800, 300, strength);
+  stage.contact = ContactScene{};
+  stage.contact->friction = friction;
+  stage.drag = DragScene{0.5};
+  return stage;
+}
+
 /// Regular hexagons of side 1 (of the tiles), `segments` a side, facing centre lines at `gap`, links at all facing pairs. Two walls of each
 /// cell are along y. Cell (row, column) has index row * columns + column; wall k faces the direction 120 + 60 k degrees. Along y only an
 /// even number of rows repeats.
