@@ -131,6 +131,8 @@ double EquilibriumSolver::potential(const Field& x) const {
   return sum;
 }
 
+double EquilibriumSolver::noise(double height) const { return kNoise * (std::abs(height) + scale_ * length_); }
+
 // Of 1/2 d (x - s growth - a)^2 all but d by x twice, which stands on the diagonal of each node.
 void EquilibriumSolver::couple_anchors(StiffnessSink& sink) const {
   const Sample& sample = model_.sample;
@@ -275,7 +277,7 @@ bool EquilibriumSolver::leave_saddle(Field& x, double height) {
     for (const double sign : {1.0, -1.0}) {
       Field there = x;
       free_.add(v, sign * way, there);
-      if (potential(there) < height - kNoise * (std::abs(height) + scale_ * length_)) {
+      if (potential(there) < height - noise(height)) {
         x = std::move(there);
         return true;
       }
@@ -294,7 +296,6 @@ bool EquilibriumSolver::relax(Field& x, double tolerance) {
   double first = measure(f), before = first;
   // Where links soften, a step may end beyond a barrier although the slope along it is small there.
   double height = barriers_ ? potential(x) : 0.0, height_there = 0;
-  const auto noise = [&] { return kNoise * (std::abs(height) + scale_ * length_); };
   int since_factor = 0, saddles = 0;
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
     if (!std::isfinite(residual_)) break;
@@ -306,7 +307,7 @@ bool EquilibriumSolver::relax(Field& x, double tolerance) {
     }
     if (std::find(kRushes.begin(), kRushes.end(), iteration) != kRushes.end()) {
       Field rushed = x;
-      if (rush(rushed, tolerance) && (!barriers_ || potential(rushed) <= height + noise())) {
+      if (rush(rushed, tolerance) && (!barriers_ || potential(rushed) <= height + noise(height))) {
         x = std::move(rushed);
         return true;
       }
@@ -341,7 +342,7 @@ bool EquilibriumSolver::relax(Field& x, double tolerance) {
       const double slope_there = step.dot(next);
       if (std::isfinite(slope_there) && slope_there >= -0.7 * slope) {
         if (barriers_) height_there = potential(there);
-        found = !barriers_ || height_there <= height + noise();
+        found = !barriers_ || height_there <= height + noise(height);
         if (found) break;
         alpha *= 0.3;
         continue;

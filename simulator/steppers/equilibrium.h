@@ -68,6 +68,7 @@ class EquilibriumSolver {
 
  private:
   void evaluate_all(const Field& x, Eigen::VectorXd& free);
+  double noise(double height) const;
   Vec2 from_anchor(const Field& x, std::size_t node) const;
   void couple_anchors(StiffnessSink& sink) const;
   void refactor(const Field& x);

@@ -67,12 +67,6 @@ double QuasiStatic::criterion(const Field& x) {
   return model_.rupture ? std::max(links, model_.rupture->most_loaded(x, wall_work_).zeta) : links;
 }
 
-double QuasiStatic::potential(const Field& x) const {
-  double sum = model_.energy(x);
-  for (std::size_t i = 0; i < x.size(); ++i) sum -= dead_.at(i).dot(x.at(i));
-  return sum;
-}
-
 // History moves in all terms but brittle links: those break in `fall`, one after the other.
 void QuasiStatic::commit() {
   for (Term* term : model_.terms())
@@ -102,7 +96,7 @@ void QuasiStatic::bring_to_rest() {
   while (hand_over_softened()) {
     Field x = x_;
     if (!try_at(time_, x)) {
-      if (softens_ && fall_to_rest(time_, x_)) return;
+      if (fall_to_rest(time_, x_)) return;
       return give_up("no equilibrium after a break at this load", time_);
     }
     double turnover = 0;
@@ -230,8 +224,9 @@ void QuasiStatic::load_towards(double end, const std::function<bool()>& go_on) {
     }
     // There, and as far back or on as it takes.
     low = 0, z_low = before, high = 0, z_high = 0;
-    Field there = lower_start(time_ + step, predicted(step));
     bool wild = false;
+    const auto start = [&] { return wild ? x_ : lower_start(time_ + step, predicted(step)); };
+    Field there = start();
     if (model_.contacts) {
       const auto share_of = [&](Field way) {
         prescribe(time_ + step, way);
@@ -243,7 +238,7 @@ void QuasiStatic::load_towards(double end, const std::function<bool()>& go_on) {
       wild = share < kWild;
       if (wild) share = share_of(x_);
       step *= share;
-      there = wild ? x_ : lower_start(time_ + step, predicted(step));
+      there = start();
     }
     const double shortest_leap = kFall * settings_.longest, shortest_onset = 1e-2 * shortest_leap;
     // Here the branch ends: the way on is along it, with less load, or down, once it has been told where it ended.
@@ -253,7 +248,7 @@ void QuasiStatic::load_towards(double end, const std::function<bool()>& go_on) {
     };
     const auto shorten = [&](double by) {
       step *= by, trusted_ = step, high = 0;
-      there = wild ? x_ : lower_start(time_ + step, predicted(step));
+      there = start();
     };
     for (int tries = 0;; ++tries) {
       const bool creeps = ++searches % kPatientSearches == 0 &&
@@ -385,7 +380,7 @@ void QuasiStatic::break_link(Index link, std::int64_t place) {
 void QuasiStatic::fall(const std::function<bool()>& go_on) {
   std::int64_t place = 0;
   behind_ = {};
-  potential_ = potential(x_);
+  potential_ = solver_.potential(x_);
   while (critical_ && go_on()) {
     const std::size_t first = breaks_.size();
     do {
@@ -403,13 +398,13 @@ void QuasiStatic::fall(const std::function<bool()>& go_on) {
     }
     const double before = potential_;
     accept(time_, std::move(x));
-    potential_ = potential(x_);
+    potential_ = solver_.potential(x_);
     const double released = before - potential_;
     works_.released += released;
     for (std::size_t k = first; k < breaks_.size(); ++k)
       breaks_[k].released = released / static_cast<double>(breaks_.size() - first);
     commit();
-    if (dissipates_) potential_ = potential(x_);
+    if (dissipates_) potential_ = solver_.potential(x_);
     critical_ = criterion(x_) > 0;
     if (settings_.follow) {
       if (critical_) take_back();

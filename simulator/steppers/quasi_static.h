@@ -97,8 +97,8 @@ class QuasiStatic {
   Field lower_start(double time, Field predicted);
   bool fall_to_rest(double time, Field x);
   bool leaps(double time, const Field& x);
-  bool begins_too_far(const Field& x);
-  std::vector<double> damage_fronts() const;
+  bool begins_too_far(const Field& x) const;
+  std::vector<double> fronts() const;
   void remember();
   Eigen::VectorXd control() const;
   bool meet(const Eigen::VectorXd& c, double length, Field& x, double& time);
@@ -109,7 +109,6 @@ class QuasiStatic {
   void fall_or_give_up(double time, Field x);
   void accept(double time, Field x);
   Field pushes(double time) const;
-  double potential(const Field& x) const;
   double criterion(const Field& x);
   void commit();
   bool hand_over_softened();

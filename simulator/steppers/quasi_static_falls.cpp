@@ -104,16 +104,7 @@ bool QuasiStatic::leaps(double time, const Field& x) {
 }
 
 /// Whether damage begins in a link only far beyond its criterion: there its mode mix, which stays, would be that of a later moment.
-bool QuasiStatic::begins_too_far(const Field& x) {
-  if (!softens_) return false;
-  ArraySet there, history;
-  model_.links->add_output(x, there), model_.links->save(history);
-  const auto& zeta = there.doubles("link_zeta");
-  const auto& onset = history.doubles("link_damage_onset");
-  for (std::size_t l = 0; l < zeta.size(); ++l)
-    if (model_.links->intact(static_cast<Index>(l)) && onset[l] == 0 && zeta[l] > kOnset) return true;
-  return false;
-}
+bool QuasiStatic::begins_too_far(const Field& x) const { return softens_ && model_.links->begins_beyond(x, kOnset); }
 
 void QuasiStatic::fall_or_give_up(double time, Field x) {
   if (!fall_to_rest(time, std::move(x))) return give_up("no equilibrium under a little more load", time);

@@ -18,17 +18,14 @@ constexpr double kPrescribedLeft = 1e-6;  // of what is prescribed
 
 }  // namespace
 
-std::vector<double> QuasiStatic::damage_fronts() const {
-  if (!settings_.follow || !softens_) return {};
-  ArraySet history;
-  model_.links->save(history);
-  return history.doubles("link_damage_largest");
+std::vector<double> QuasiStatic::fronts() const {
+  return softens_ ? model_.links->damage_fronts() : std::vector<double>{};
 }
 
 /// Keeps what the next increment needs to know of the one that is about to be accepted; `commit` comes in between.
 void QuasiStatic::remember() {
   if (!settings_.follow) return;
-  behind_ = {x_, time_, damage_fronts(), 0, behind_.spent_at_start, behind_.fruitless};
+  behind_ = {x_, time_, fronts(), 0, behind_.spent_at_start, behind_.fruitless};
 }
 
 /// c: what grows along the last increment is c . (x - x_).
@@ -36,7 +33,7 @@ Eigen::VectorXd QuasiStatic::control() const {
   const FreeComponents& free = solver_.free();
   Field way(x_.size());
   const auto moved = [&](Index i) -> Vec2 { return x_.at(i) - behind_.x.at(i); };
-  const std::vector<double> front = damage_fronts();
+  const std::vector<double> front = fronts();
   bool softened = false;
   for (std::size_t l = 0; l < front.size(); ++l) {
     if (!(front[l] > behind_.front[l])) continue;

@@ -139,6 +139,11 @@ CohesiveLinks::State CohesiveLinks::state(const Field& x, Index l) const {
   return s;
 }
 
+double CohesiveLinks::zeta_of(Index l, const State& s) const {
+  return yield_function(p_.normal_stiffness[l] * s.u_n, p_.tangential_stiffness[l] * s.u_t, p_.normal_strength[l],
+                        p_.tangential_strength[l], p_.exponent);
+}
+
 double CohesiveLinks::energy(const Field& x) const {
   double sum = 0;
   for (Index l = 0; l < static_cast<Index>(sample_.links.size()); ++l) {
@@ -469,9 +474,7 @@ void CohesiveLinks::add_output(const Field& x, ArraySet& frame) const {
     force[2 * l] = s.f_n, force[2 * l + 1] = s.f_t;
     energy[l] = s.stored;
     if (softens()) damage[l] = s.damage;
-    if (breakable())  // of the forces without damage: it goes on growing while a link softens
-      zeta[l] = yield_function(p_.normal_stiffness[l] * s.u_n, p_.tangential_stiffness[l] * s.u_t,
-                               p_.normal_strength[l], p_.tangential_strength[l], p_.exponent);
+    if (breakable()) zeta[l] = zeta_of(l, s);
   }
   frame.add({"link_force", "N", "link", 2, std::move(force)});
   frame.add({"link_energy", "J", "link", 1, std::move(energy)});

@@ -106,6 +106,10 @@ class CohesiveLinks final : public Term {
   /// What damage has dissipated in intact links up to the last commit [J]; of all of them, or of one.
   double dissipated() const;
   double dissipated(Index link) const { return softens() ? zone_dissipated(zone_[link]) : 0.0; }
+  /// Whether damage would begin at x in a link that is beyond its criterion by more than this.
+  bool begins_beyond(const Field& x, double zeta) const;
+  /// s_max of each link [J^1/2]: how far its damage has come; empty where none softens.
+  std::vector<double> damage_fronts() const;
   /// Length over which links like this one soften ahead of a crack in opening between walls of this bending rigidity [m], roughly; 0 where
   /// it is brittle.
   double zone_length(Index link, double bending) const;
@@ -166,6 +170,8 @@ class CohesiveLinks final : public Term {
   Vec2 displaced(Index link, const Field& x) const {
     return sample_.link_image.empty() ? Vec2(0, 0) : displacement(sample_.link_image[link], box_size(sample_, x));
   }
+  /// Of the forces without damage: it goes on growing while a link softens.
+  double zeta_of(Index link, const State& s) const;
   /// Where the middle between its nodes is, beside a [m].
   Vec2 middle_of(Index link, const Field& x) const;
   Break broken_at(const Field& x, Index link) const;

@@ -63,6 +63,20 @@ double CohesiveLinks::dissipated() const {
   return sum;
 }
 
+bool CohesiveLinks::begins_beyond(const Field& x, double zeta) const {
+  for (std::size_t l = 0; l < zone_.size(); ++l)
+    if (const auto link = static_cast<Index>(l);
+        intact_[l] && !zone_[l].begun() && zeta_of(link, state(x, link)) > zeta)
+      return true;
+  return false;
+}
+
+std::vector<double> CohesiveLinks::damage_fronts() const {
+  std::vector<double> fronts;
+  for (const ZoneHistory& h : zone_) fronts.push_back(h.largest);
+  return fronts;
+}
+
 // Beams whose ends are pulled by f per length over the length z, open by f z^4 / EI there: by G / f at the end of the zone.
 double CohesiveLinks::zone_length(Index l, double bending) const {
   if (!softens()) return 0;
