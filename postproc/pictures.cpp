@@ -228,7 +228,7 @@ Paths draw_stress_strain(const std::filesystem::path& stem, const LoadCurve& cur
   chart.curves.push_back(std::move(stress));
   for (std::size_t k = 0; k < mark_times.size(); ++k)
     chart.marks.push_back({100 * value_at(curve.time, curve.strain, mark_times[k]),
-                           value_at(curve.time, curve.stress, mark_times[k]) / unit.factor,
+                           value_at_frame(curve.time, curve.stress, mark_times[k]) / unit.factor,
                            std::string(1, static_cast<char>('a' + k)), kCrack});
   const Vec2 size(560, 380);
   return draw_page(stem, size, [&](Canvas& canvas) { draw_chart(canvas, {Vec2(0, 8), size}, chart); });

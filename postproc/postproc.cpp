@@ -191,7 +191,7 @@ class Post {
   /// Of the two frames around the peak the one that carries more.
   int frame_at_peak() const {
     const double time = facts_.constants.time_at_peak;
-    const auto stress = [&](int k) { return value_at(facts_.curve.time, facts_.curve.stress, frames_.times[k]); };
+    const auto stress = [&](int k) { return value_at_frame(facts_.curve.time, facts_.curve.stress, frames_.times[k]); };
     int before = 0;
     while (before + 1 < reader_.frames() && frames_.times[before + 1] <= time) ++before;
     const int after = std::min(before + 1, reader_.frames() - 1);
@@ -233,7 +233,7 @@ class Post {
       return fmt::format("t = {:.4g} {}", time / unit.first, unit.second);
     }
     const double strain = value_at(facts_.curve.time, facts_.curve.strain, time);
-    const double stress = value_at(facts_.curve.time, facts_.curve.stress, time);
+    const double stress = value_at_frame(facts_.curve.time, facts_.curve.stress, time);
     std::string text = fmt::format("\u03b5 = {:.3g} %", 100 * strain);
     if (facts_.constants.peak_stress > 0) {
       const double share = stress / facts_.constants.peak_stress;

@@ -91,7 +91,7 @@ void add_test(Summary& summary, const SummaryInputs& facts) {
                      "largest; at rest it equals the grips'",
                      most->first)});
     summary.add("accuracy",
-                {"grip_stress_then", value_at(facts.curve.time, facts.curve.stress, most->first), "Pa",
+                {"grip_stress_then", value_at_frame(facts.curve.time, facts.curve.stress, most->first), "Pa",
                  "nominal stress at that time; it refers to the width at rest, the cells' to their present areas"});
   }
   const std::vector<double> a = response_column(facts.reader->response(), "force_a"),

@@ -160,4 +160,9 @@ double value_at(const std::vector<double>& times, const std::vector<double>& val
   return values[at - 1] + share * (values[at] - values[at - 1]);
 }
 
+double value_at_frame(const std::vector<double>& times, const std::vector<double>& values, double time) {
+  const auto at = static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), time) - times.begin());
+  return at > 0 && times[at - 1] == time ? values[at - 1] : value_at(times, values, time);
+}
+
 }  // namespace lamella

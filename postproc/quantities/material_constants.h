@@ -66,4 +66,7 @@ double lateral_strain(const Sample& sample, const std::vector<Vec2>& x, int axis
 /// Piecewise linear value of the curve at a time, clamped to its ends.
 double value_at(const std::vector<double>& times, const std::vector<double>& values, double time);
 
+/// The same at the time of a frame: where rows share a time, as before and after a fall at rest, that of the last.
+double value_at_frame(const std::vector<double>& times, const std::vector<double>& values, double time);
+
 }  // namespace lamella

@@ -65,6 +65,14 @@ TEST(MaterialConstants, a_sample_in_two_has_failed_at_the_latest_where_the_curve
   EXPECT_EQ(m.strain_at_failure, by_stress);
 }
 
+TEST(MaterialConstants, a_frame_stands_behind_the_fall_at_its_time) {
+  const std::vector<double> times{0, 1, 1, 2}, stress{0, 10, 4, 6};
+  EXPECT_EQ(value_at_frame(times, stress, 1), 4);
+  EXPECT_EQ(value_at(times, stress, 1), 10);
+  for (const double time : {-1.0, 0.0, 0.5, 1.5, 2.0, 3.0})
+    EXPECT_EQ(value_at_frame(times, stress, time), value_at(times, stress, time)) << time;
+}
+
 TEST(MaterialConstants, compression_counts_positive) {
   TestSetup setup = kSetup;
   setup.kind = "compression";
