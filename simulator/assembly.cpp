@@ -43,7 +43,9 @@ bool StiffnessMatrix::assemble(const std::function<void(StiffnessSink&)>& visit)
   bool changed = false;
   while (true) {
     std::fill(values_.begin(), values_.end(), 0.0);
+    for (auto& of_cell : added_) of_cell.clear();
     visit(*this);
+    record_ = nullptr;
     if (missing_.empty() && !column_begin_.empty()) return changed;
     auto pairs = std::exchange(missing_, {});
     for (std::size_t j = 0; j + 1 < pair_begin_.size(); ++j)
@@ -52,6 +54,33 @@ bool StiffnessMatrix::assemble(const std::function<void(StiffnessSink&)>& visit)
     make_pattern(std::move(pairs));
     changed = true;
   }
+}
+
+bool StiffnessMatrix::reassemble(const std::vector<std::uint8_t>& cells,
+                                 const std::function<void(StiffnessSink&)>& visit) {
+  changed_.clear();
+  const auto note = [&](const Added& a) {
+    for (const int row : {a.column, rows_[a.entry]})
+      if (changed_.empty() || changed_.back() != row) changed_.push_back(row);
+  };
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    if (!cells[c]) continue;
+    for (const Added& a : added_[c]) values_[a.entry] -= a.value, note(a);
+    added_[c].clear();
+  }
+  wanted_ = &cells;
+  visit(*this);
+  wanted_ = nullptr, record_ = nullptr;
+  for (std::size_t c = 0; c < cells.size(); ++c)
+    if (cells[c])
+      for (const Added& a : added_[c]) note(a);
+  return missing_.empty();
+}
+
+bool StiffnessMatrix::begin_element(Index cell) {
+  if (wanted_ && !(*wanted_)[cell]) return false;
+  if (!added_.empty()) record_ = &added_[cell];
+  return true;
 }
 
 void StiffnessMatrix::make_pattern(std::vector<std::pair<Index, Index>> pairs) {
@@ -89,11 +118,11 @@ void StiffnessMatrix::add(Index i, Index j, const Eigen::Matrix2d& block) {
     if (column_begin_.empty()) return;
     const int x = free_->row(j, 0), y = free_->row(j, 1);
     if (x >= 0) {
-      double* const column = values_.data() + column_begin_[x];
-      column[0] += block(0, 0);
-      if (y >= 0) column[1] += block(1, 0);
+      const std::size_t at = column_begin_[x];
+      put(at, x, block(0, 0));
+      if (y >= 0) put(at + 1, x, block(1, 0));
     }
-    if (y >= 0) values_[column_begin_[y]] += block(1, 1);
+    if (y >= 0) put(column_begin_[y], y, block(1, 1));
     return;
   }
   if (pair_begin_.empty()) {
@@ -111,9 +140,9 @@ void StiffnessMatrix::add(Index i, Index j, const Eigen::Matrix2d& block) {
     const int column = free_->row(j, c);
     if (column < 0) continue;
     const int own = c == 0 && free_->row(j, 1) >= 0 ? 2 : 1;
-    double* at = values_.data() + column_begin_[column] + own + before;
-    if (free_->row(i, 0) >= 0) *at++ += block(0, c);
-    if (free_->row(i, 1) >= 0) *at += block(1, c);
+    std::size_t at = static_cast<std::size_t>(column_begin_[column] + own + before);
+    if (free_->row(i, 0) >= 0) put(at++, column, block(0, c));
+    if (free_->row(i, 1) >= 0) put(at, column, block(1, c));
   }
 }
 

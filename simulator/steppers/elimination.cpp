@@ -6,6 +6,7 @@
 #include <new>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 namespace lamella {
 namespace {
@@ -123,7 +124,7 @@ void Elimination::analyze(const std::vector<int>& column_begin, const std::vecto
   const std::vector<int> parent = elimination_tree(permuted(column_begin, rows, place, true));
   const Permuted by_columns = permuted(column_begin, rows, place, false);
 
-  supernodes.clear(), supernode_of.assign(n, 0), row_store_.clear(), values = 0, largest = 0;
+  supernodes.clear(), supernode_of.assign(n, 0), row_store_.clear(), values = 0, shares = 0, largest = 0;
   for (const Group& g : make_groups(parent, count)) {
     std::fill(supernode_of.begin() + g.first, supernode_of.begin() + g.end, static_cast<int>(supernodes.size()));
     Supernode s;
@@ -151,6 +152,8 @@ void Elimination::analyze(const std::vector<int>& column_begin, const std::vecto
       s.parent = supernode_of[row_store_[begin[k]]];
       children[s.parent].push_back(k);
     }
+    s.share = shares;
+    shares += static_cast<std::size_t>(s.below()) * (s.below() + 1) / 2;
     s.values = values;
     values += static_cast<std::size_t>(s.size) * s.width();
     largest = std::max(largest, s.size);
@@ -179,8 +182,6 @@ void Elimination::analyze(const std::vector<int>& column_begin, const std::vecto
   }
   source.resize(entries), target.resize(entries);
   for (std::size_t k = 0; k < entries; ++k) source[next[supernode_of[column[k]]]++] = static_cast<int>(k);
-  std::size_t waiting = 0;
-  stack = 0;
   for (int k = 0; k < many; ++k) {
     Supernode& s = supernodes[k];
     s.rows = row_store_.data() + begin[k], s.place_in_parent = place_store_.data() + begin[k];
@@ -189,10 +190,8 @@ void Elimination::analyze(const std::vector<int>& column_begin, const std::vecto
       target[e] = (column[source[e]] - s.first) * s.size + local[row[source[e]]];
     for (const int c : children[k]) {
       for (std::size_t r = begin[c]; r < begin[c + 1]; ++r) place_store_[r] = local[row_store_[r]];
-      waiting -= (begin[c + 1] - begin[c]) * (begin[c + 1] - begin[c]);
+      supernodes[c].next_sibling = std::exchange(s.first_child, c);
     }
-    waiting += static_cast<std::size_t>(s.below()) * s.below();
-    stack = std::max(stack, waiting);
   }
 }
 

@@ -11,6 +11,8 @@ struct Supernode {
   int size = 0;                              // rows of L: its own columns, and `rows` below them
   const int* rows = nullptr;                 // below, ascending. Shape (below())
   const int* place_in_parent = nullptr;      // of each of these rows among the parent's rows. Shape (below())
+  int first_child = -1, next_sibling = -1;   // supernodes; -1: none
+  std::size_t share = 0;                     // where starts what it subtracts from its parent: a lower triangle, shape (below(), below())
   std::size_t values = 0;                    // where its block of L starts; shape (width(), size), column by column
   std::size_t entries = 0, entries_end = 0;  // of K that are assembled here: range of `source` and `target`
 
@@ -33,8 +35,8 @@ struct Elimination {
   std::vector<int> source,
       target;  // of each entry of K: its index, and where it goes in its supernode's front, column by column
   std::size_t values = 0;  // entries of L
+  std::size_t shares = 0;  // values of all shares
   int largest = 0;         // supernode's size
-  std::size_t stack = 0;   // most values that wait for their parents at any time
 
  private:
   std::vector<int> row_store_, place_store_;

@@ -25,7 +25,9 @@ constexpr int kGradients = 60;
 constexpr double kSolved = 1e-5;
 // Over the largest diagonal. Loose fragments make the stiffness singular; this keeps it regular, and moves nothing: the forces say when
 // equilibrium is reached.
-constexpr double kLeastShift = 1e-12, kMostLeastShift = 1e-7, kMostShift = 1;
+constexpr double kLeastShift = 1e-12, kMostShift = 1;
+constexpr double kLoose = 1e-8, kMostLoose = 1e-7;
+const double kTurned = getenv("KT") ? atof(getenv("KT")) : 0.02, kSlow = getenv("KS") ? atof(getenv("KS")) : 0.1,kMostTurned = getenv("KM") ? atof(getenv("KM")) : 0.3;
 constexpr double kLost = 50;  // way of a loose piece in one iteration, in mean segments
 // Over stiffness times extent: positions are rounded, and with them forces.
 constexpr double kRounding = 64 * 2.2e-16;
@@ -43,11 +45,12 @@ EquilibriumSolver::EquilibriumSolver(Model& model, const std::vector<Load>& load
     : model_(model),
       shell_terms_(model.shell_terms()),
       free_(model.mass.size(), loads),
-      stiffness_(free_),
+      stiffness_(free_, model.sample.cells()),
       scratch_(model.layout),
       dead_(model.mass.size()),
       f_(model.mass.size()),
-      least_shift_(kLeastShift) {
+      cell_of_(cell_of_node(model.sample)),
+      dropped_(model.sample.cells(), 0) {
   for (Term* term : model.terms())
     if (std::find(shell_terms_.begin(), shell_terms_.end(), term) == shell_terms_.end()) other_terms_.push_back(term);
   Index count = 0;
@@ -58,9 +61,9 @@ EquilibriumSolver::EquilibriumSolver(Model& model, const std::vector<Load>& load
 }
 
 void EquilibriumSolver::forget() {
-  stiffness_ = StiffnessMatrix(free_);
+  stiffness_ = StiffnessMatrix(free_, model_.sample.cells());
   analyzed_ = factored_ = false;
-  least_shift_ = kLeastShift, shift_ = 0, rounding_ = 0;
+  loose_.setZero(), shift_ = 0, rounding_ = 0;
 }
 
 void EquilibriumSolver::set_dead_forces(const Field& f) {
@@ -162,26 +165,64 @@ void EquilibriumSolver::refactor(const Field& x) {
     couple_anchors(sink);
   });
   if (changed) analyzed_ = false;
-  factored_values_ = stiffness_.values();
+  if (loose_.size() != free_.size()) loose_ = Eigen::VectorXd::Zero(free_.size());
+  largest_ = stiffness_.largest_diagonal();
   for (Index i = 0; i < static_cast<Index>(anchor_stiffness_.size()); ++i)
     for (int c = 0; c < 2; ++c)
-      if (const int row = free_.row(i, c); row >= 0)
-        factored_values_[stiffness_.column_begin()[row]] += anchor_stiffness_[i];
+      if (const int row = free_.row(i, c); row >= 0) stiffness_.add_to_diagonal(row, anchor_stiffness_[i]);
+  for (const double d : anchor_stiffness_) largest_ = std::max(largest_, d);
+  for (int row = 0; row < free_.size(); ++row)
+    if (loose_[row] > 0) stiffness_.add_to_diagonal(row, loose_[row] * largest_);
   if (!analyzed_) factor_.analyze(stiffness_.column_begin(), stiffness_.rows());
   analyzed_ = true;
-  double largest = stiffness_.largest_diagonal();
-  for (const double d : anchor_stiffness_) largest = std::max(largest, d);
   const auto [left, right] = std::minmax_element(x.x.begin(), x.x.end());
   const auto [low, high] = std::minmax_element(x.y.begin(), x.y.end());
-  rounding_ = kRounding * largest * std::max(*right - *left, *high - *low);
+  rounding_ = kRounding * largest_ * std::max(*right - *left, *high - *low);
   // A shift that was needed a moment ago is tried a little smaller; most of the time none is.
-  for (shift_ = std::max(least_shift_, 1e-3 * shift_); shift_ <= kMostShift; shift_ *= 30) {
+  for (shift_ = std::max(kLeastShift, 1e-3 * shift_); shift_ <= kMostShift; shift_ *= 30) {
     ++cost_.factorizations;
-    factored_ = factor_.factorize(factored_values_, shift_ * largest);
+    factored_ = factor_.factorize(stiffness_.values(), shift_ * largest_);
     if (factored_) break;
   }
   factor_x_ = x;
+  dropped_.assign(dropped_.size(), 0);
   pairs_.clear();
+}
+
+/// Makes the factor anew where cells have turned or stretched since: what does not depend on them stays.
+bool EquilibriumSolver::refactor_turned(const Field& x) {
+  if (!factored_ || !analyzed_) return false;
+  const Sample& sample = model_.sample;
+  std::vector<std::uint8_t> turned(sample.cells(), 0);
+  Index many = 0, total = sample.nodes();
+  for (Index c = 0; c < sample.cells(); ++c) {
+    bool far = dropped_[c] != 0;
+    for (Index i = sample.cell_begin[c]; i < sample.cell_begin[c + 1] && !far; ++i) {
+      const Index j = sample.next(c, i);
+      const Vec2 before = factor_x_.at(j) - factor_x_.at(i), now = x.at(j) - x.at(i);
+      far = (now - before).squaredNorm() > kTurned * kTurned * before.squaredNorm();
+    }
+    if (far) turned[c] = 1;
+  }
+  std::vector<std::uint8_t> near = turned;
+  for (std::size_t l = 0; l < sample.links.size(); ++l)
+    if (turned[cell_of_[sample.links[l].b]]) near[cell_of_[sample.links[l].a]] = 1;
+  for (Index c = 0; c < sample.cells(); ++c)
+    if (near[c]) many += sample.cell_size(c);
+  if (many == 0 || many > kMostTurned * total) return false;
+  if (!stiffness_.reassemble(near, [&](StiffnessSink& sink) {
+        for (const Term* term : model_.terms()) term->add_stiffness(x, sink);
+      }))
+    return false;
+  ++cost_.partial;
+  factored_ = factor_.refactorize(stiffness_.values(), shift_ * largest_, stiffness_.changed_rows());
+  if (!factored_) return false;
+  for (Index c = 0; c < sample.cells(); ++c)
+    if (near[c])
+      for (Index i = sample.cell_begin[c]; i < sample.cell_begin[c + 1]; ++i) factor_x_.set(i, x.at(i));
+  dropped_.assign(dropped_.size(), 0);
+  pairs_.clear();
+  return true;
 }
 
 Eigen::VectorXd EquilibriumSolver::direction(const Eigen::VectorXd& f) {
@@ -216,9 +257,9 @@ double EquilibriumSolver::allowed_share(const Field& x, const Eigen::VectorXd& s
 // The factor is kept in single precision: where soft and stiff lie far apart, conjugate gradients bring the digits that it lacks.
 Eigen::VectorXd EquilibriumSolver::tangent_solution(const Eigen::VectorXd& f) {
   const int n = stiffness_.size();
-  const Eigen::Map<const Eigen::SparseMatrix<double>> lower(n, n, static_cast<Eigen::Index>(factored_values_.size()),
-                                                            stiffness_.column_begin().data(), stiffness_.rows().data(),
-                                                            factored_values_.data());
+  const Eigen::Map<const Eigen::SparseMatrix<double>> lower(
+      n, n, static_cast<Eigen::Index>(stiffness_.values().size()), stiffness_.column_begin().data(),
+      stiffness_.rows().data(), stiffness_.values().data());
   Eigen::VectorXd x = Eigen::VectorXd::Zero(n), left = f, z = factor_.solve(left), p = z;
   double energy = left.dot(z);
   ++cost_.solves;
@@ -249,7 +290,7 @@ bool EquilibriumSolver::rush(Field& x, double tolerance) {
     refactor(x);
     if (!factored_) return false;
     // A minimum, and not just any rest.
-    if (there) return shift_ <= least_shift_;
+    if (there) return shift_ <= kFlat;
     ++cost_.iterations;
     const Eigen::VectorXd step = tangent_solution(f);
     if (!step.allFinite()) return false;
@@ -328,8 +369,10 @@ bool EquilibriumSolver::relax(Field& x, double tolerance) {
       slope = step.dot(f);
     }
     // Nothing holds what goes so far: rounding alone drives it. A larger shift keeps it where it is.
-    if (step.cwiseAbs().maxCoeff() > kLost * length_ && least_shift_ < kMostLeastShift) {
-      least_shift_ *= 100;
+    const double farthest = step.cwiseAbs().maxCoeff();
+    if (farthest > kLost * length_ && loose_.maxCoeff() < kMostLoose) {
+      for (Eigen::Index k = 0; k < step.size(); ++k)
+        if (std::abs(step[k]) > 0.1 * farthest) loose_[k] = std::max(kLoose, 100 * loose_[k]);
       factored_ = false;
       continue;
     }
@@ -372,6 +415,10 @@ bool EquilibriumSolver::relax(Field& x, double tolerance) {
     before = residual_;
     measure(f);
     ++since_factor;
+    if (residual_ > tolerance && residual_ > kSlow * before && factored_ && refactor_turned(x)) {
+      since_factor = 0, first = residual_;
+      continue;
+    }
     // The rate so far, and what it promises.
     const double rate = std::log(std::max(first, 1e-300) / std::max(residual_, 1e-300)) / since_factor;
     const double left = std::log(std::max(residual_, 1e-300) / tolerance);
@@ -411,6 +458,7 @@ void EquilibriumSolver::drop_link(Index link) {
     Eigen::MatrixXd& k;
   } local(free_, rows, k);
   model_.links->add_stiffness_of(link, factor_x_, local);
+  dropped_[cell_of_[model_.sample.links[link].a]] = 1;
   const Eigen::Index n = static_cast<Eigen::Index>(rows.size());
   if (n == 0) return;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(k.topLeftCorner(n, n));

@@ -72,6 +72,7 @@ class EquilibriumSolver {
   Vec2 from_anchor(const Field& x, std::size_t node) const;
   void couple_anchors(StiffnessSink& sink) const;
   void refactor(const Field& x);
+  bool refactor_turned(const Field& x);
   bool rush(Field& x, double tolerance);
   bool leave_saddle(Field& x, double height);
   Eigen::VectorXd tangent_solution(const Eigen::VectorXd& f);
@@ -94,8 +95,10 @@ class EquilibriumSolver {
       false;  // links soften: there is more than one minimum, and a search goes to none that lies higher than its start
   Field reached_;
   Field factor_x_;  // where the factor was made
-  std::vector<double> factored_values_;
-  double least_shift_;  // over the largest diagonal; grows where pieces are loose
+  double largest_ = 0;     // entry on its diagonal
+  Eigen::VectorXd loose_;  // shift of each row beside shift_, where next to nothing holds it
+  std::vector<Index> cell_of_;
+  std::vector<std::uint8_t> dropped_;  // per cell: links of it have been taken out of the factor since it was made
   double shift_ = 0;    // of the last factor, over the largest diagonal
   double scale_ = 0, residual_ = 0;
   double length_ = 0;    // mean segment [m]

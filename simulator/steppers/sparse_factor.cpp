@@ -127,42 +127,53 @@ void backward(const float* l, const double* inverse_diagonal, int width, int siz
 bool SparseFactor::factorize(const std::vector<double>& values, double shift) {
   l_.resize(plan_.values), inverse_diagonal_.resize(plan_.size()), work_.assign(plan_.size(), 0.0);
   local_.resize(plan_.largest);
-  front_.resize(static_cast<std::size_t>(plan_.largest) * plan_.largest), stack_.resize(plan_.stack);
+  front_.resize(static_cast<std::size_t>(plan_.largest) * plan_.largest), share_.resize(plan_.shares);
+  stale_.assign(plan_.supernodes.size(), 0);
+  for (std::size_t k = 0; k < plan_.supernodes.size(); ++k)
+    if (!eliminate_supernode(static_cast<int>(k), values, shift)) return false;
+  return true;
+}
+
+bool SparseFactor::refactorize(const std::vector<double>& values, double shift, const std::vector<int>& rows) {
+  for (const int row : rows) mark_stale(plan_.supernode_of[plan_.place[row]]);
+  for (std::size_t k = 0; k < plan_.supernodes.size(); ++k)
+    if (stale_[k] && !eliminate_supernode(static_cast<int>(k), values, shift)) return false;
+  return true;
+}
+
+/// This supernode, and all that depend on it.
+void SparseFactor::mark_stale(int supernode) {
+  for (int k = supernode; k >= 0 && !stale_[k]; k = plan_.supernodes[k].parent) stale_[k] = 1;
+}
+
+/// Makes its columns of L, and its share in its parent.
+bool SparseFactor::eliminate_supernode(int k, const std::vector<double>& values, double shift) {
+  const Supernode& s = plan_.supernodes[k];
   double* const f = front_.data();
-  std::vector<int> waiting;  // supernodes whose share lies on the stack
-  double* top = stack_.data();
-  for (std::size_t k = 0; k < plan_.supernodes.size(); ++k) {
-    const Supernode& s = plan_.supernodes[k];
-    const int size = s.size, width = s.width(), below = s.below();
-    for (int j = 0; j < size; ++j) std::fill_n(f + static_cast<std::size_t>(j) * size + j, size - j, 0.0);
-    for (std::size_t e = s.entries; e < s.entries_end; ++e) f[plan_.target[e]] += values[plan_.source[e]];
-    for (int j = 0; j < width; ++j) f[static_cast<std::size_t>(j) * size + j] += shift;
-    while (!waiting.empty() && plan_.supernodes[waiting.back()].parent == static_cast<int>(k)) {
-      const Supernode& child = plan_.supernodes[waiting.back()];
-      waiting.pop_back();
-      const int n = child.below();
-      top -= static_cast<std::ptrdiff_t>(n) * n;
-      const int* const to = child.place_in_parent;
-      for (int j = 0; j < n; ++j) {
-        double* const c = f + static_cast<std::size_t>(to[j]) * size;
-        const double* const u = top + static_cast<std::ptrdiff_t>(j) * n;
-        for (int i = j; i < n; ++i) c[to[i]] += u[i];
-      }
+  const int size = s.size, width = s.width();
+  for (int j = 0; j < size; ++j) std::fill_n(f + static_cast<std::size_t>(j) * size + j, size - j, 0.0);
+  for (std::size_t e = s.entries; e < s.entries_end; ++e) f[plan_.target[e]] += values[plan_.source[e]];
+  for (int j = 0; j < width; ++j) f[static_cast<std::size_t>(j) * size + j] += shift;
+  for (int c = s.first_child; c >= 0; c = plan_.supernodes[c].next_sibling) {
+    const Supernode& child = plan_.supernodes[c];
+    const int n = child.below();
+    const int* const to = child.place_in_parent;
+    const double* u = share_.data() + child.share;
+    for (int j = 0; j < n; u += n - j, ++j) {
+      double* const column = f + static_cast<std::size_t>(to[j]) * size;
+      for (int i = j; i < n; ++i) column[to[i]] += u[i - j];
     }
-    if (!eliminate(f, size, width)) return false;
-    float* const l = l_.data() + s.values;
-    for (int j = 0; j < width; ++j) {
-      const double* const c = f + static_cast<std::size_t>(j) * size;
-      inverse_diagonal_[s.first + j] = 1 / c[j];
-      for (int i = j; i < size; ++i) l[static_cast<std::size_t>(j) * size + i] = static_cast<float>(c[i]);
-    }
-    if (below == 0) continue;
-    for (int j = 0; j < below; ++j)
-      std::copy_n(f + static_cast<std::size_t>(width + j) * size + width + j, below - j,
-                  top + static_cast<std::ptrdiff_t>(j) * below + j);
-    top += static_cast<std::ptrdiff_t>(below) * below;
-    waiting.push_back(static_cast<int>(k));
   }
+  if (!eliminate(f, size, width)) return false;
+  float* const l = l_.data() + s.values;
+  for (int j = 0; j < width; ++j) {
+    const double* const c = f + static_cast<std::size_t>(j) * size;
+    inverse_diagonal_[s.first + j] = 1 / c[j];
+    for (int i = j; i < size; ++i) l[static_cast<std::size_t>(j) * size + i] = static_cast<float>(c[i]);
+  }
+  double* u = share_.data() + s.share;
+  for (int j = width; j < size; ++j) u = std::copy_n(f + static_cast<std::size_t>(j) * size + j, size - j, u);
+  stale_[k] = 0;
   return true;
 }
 
@@ -228,6 +239,7 @@ bool SparseFactor::update(const std::vector<int>& rows, const Eigen::MatrixXd& c
   int head = plan_.size();
   for (const int row : rows) head = std::min(head, plan_.place[row]);
   const Supernode& s = plan_.supernodes[plan_.supernode_of[head]];
+  mark_stale(plan_.supernode_of[head]);  // their shares are not updated
   for (const int row : rows)
     if (const int at = plan_.place[row]; at >= s.end && !std::binary_search(s.rows, s.rows + s.below(), at))
       return false;

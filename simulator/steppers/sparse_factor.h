@@ -5,6 +5,7 @@
 // iteration that measures its own residual never notices.
 #pragma once
 #include <Eigen/Core>
+#include <cstdint>
 #include <vector>
 
 #include "simulator/steppers/elimination.h"
@@ -20,6 +21,9 @@ class SparseFactor {
   /// Factors K + shift I, of which `values` are the lower triangle in the pattern of `analyze`. Returns whether that is positive definite; if
   /// not, the factor is of no use.
   bool factorize(const std::vector<double>& values, double shift);
+  /// The same where only these rows (and columns) of K, and the rows of updates, have changed since the factor was made: what does not depend on
+  /// them stays. As long as `shift` is the same, the result is that of `factorize`.
+  bool refactorize(const std::vector<double>& values, double shift, const std::vector<int>& rows);
   /// K^-1 b. Shape (n).
   const Eigen::VectorXd& solve(const Eigen::VectorXd& b);
   /// K += sign * C C^T, where row k of C belongs to row rows[k] of K. Returns false where L has no room for the result, or that is not
@@ -29,12 +33,16 @@ class SparseFactor {
   double entries() const { return static_cast<double>(plan_.values); }
 
  private:
+  void mark_stale(int supernode);
+  bool eliminate_supernode(int k, const std::vector<double>& values, double shift);
   bool update_by(int first_column, int sign);
 
   Elimination plan_;
   std::vector<float> l_;
   std::vector<double> inverse_diagonal_;  // of L
-  std::vector<double> front_, stack_;     // scratch of `factorize`
+  std::vector<double> share_;             // of each supernode in its parent
+  std::vector<std::uint8_t> stale_;       // per supernode: its share, or what it depends on, is of another K
+  std::vector<double> front_;             // scratch
   std::vector<double> work_, local_;      // scratch; work_ is zero between calls
   Eigen::VectorXd permuted_, solution_;
 };

@@ -103,7 +103,8 @@ std::vector<double> Bars::stored(const Field& x) const {
 
 // d2W/de2 = k t t^T + (T / l) n n^T, k = 0 while the bar flows.
 void Bars::add_stiffness(const Field& x, StiffnessSink& sink) const {
-  for_each_bar(x, [&](Index, Index i, Index j, Index slot, double length) {
+  for_each_bar(x, [&](Index c, Index i, Index j, Index slot, double length) {
+    if (!sink.begin_element(c)) return;
     double k = stiffness_[slot], tension = k * (length - rest_length_[slot]);
     if (!yield_.empty()) {
       const double trial = tension - k * plastic_[slot];

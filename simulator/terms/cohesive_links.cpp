@@ -388,8 +388,9 @@ Vec2 CohesiveLinks::force_on_box(Index first, Index last, const LinkForces& w) c
 // In the coordinates q = (D, tau): with c_D, c_tau the weights of a node in D and tau, its block with another node is
 // sum c c' d2W/dq dq'.
 void CohesiveLinks::add_stiffness(const Field& x, StiffnessSink& sink) const {
+  const std::vector<Index> cell = cell_of_node(sample_);
   for (Index l = 0; l < static_cast<Index>(sample_.links.size()); ++l)
-    if (intact_[l]) add_stiffness_of(l, x, sink);
+    if (intact_[l] && sink.begin_element(cell[sample_.links[l].a])) add_stiffness_of(l, x, sink);
 }
 
 void CohesiveLinks::add_stiffness_of(Index l, const Field& x, StiffnessSink& sink) const {

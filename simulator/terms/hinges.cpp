@@ -121,7 +121,8 @@ std::vector<double> Hinges::stored(const Field& x) const {
 
 // theta = phi_2 - phi_1 with d(phi)/de = n / l and d2(phi)/de2 = -(t n^T + n t^T) / l^2.
 void Hinges::add_stiffness(const Field& x, StiffnessSink& sink) const {
-  for_each_hinge(x, [&](Index, Index h, Index i, Index j, Index slot, double trial) {
+  for_each_hinge(x, [&](Index c, Index h, Index i, Index j, Index slot, double trial) {
+    if (!sink.begin_element(c)) return;
     double k = stiffness_[slot], moment = trial;
     if (!yield_.empty() && std::abs(trial) > yield_[slot]) k = 0, moment = returned(trial, yield_[slot]);
     const Index node[3] = {h, i, j};

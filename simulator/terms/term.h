@@ -16,6 +16,9 @@ class StiffnessSink {
  public:
   virtual ~StiffnessSink() = default;
   virtual void add(Index i, Index j, const Eigen::Matrix2d& block) = 0;
+  /// Asked before each element, of which what follows is the stiffness: whether it is wanted at all. `cell`: one that it belongs to, the same
+  /// every time (of links: that of node a).
+  virtual bool begin_element(Index /*cell*/) { return true; }
 };
 
 class Term {
@@ -28,7 +31,7 @@ class Term {
   virtual double energy(const Field& x) const = 0;
   /// f -= d(energy)/dx [N].
   virtual void add_force(const Field& x, Field& f) const = 0;
-  /// d2(energy)/dx2 [N/m].
+  /// d2(energy)/dx2 [N/m], element by element, where the sink wants them.
   virtual void add_stiffness(const Field& x, StiffnessSink& sink) const = 0;
   /// Moves the history (plastic lengths and angles, friction anchors, damage) to x. The only place where history moves.
   virtual void commit(const Field&) {}
