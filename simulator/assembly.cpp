@@ -43,10 +43,10 @@ bool StiffnessMatrix::assemble(const std::function<void(StiffnessSink&)>& visit)
   bool changed = false;
   while (true) {
     std::fill(values_.begin(), values_.end(), 0.0);
-    for (auto& of_cell : added_) of_cell.clear();
+    for (Added& added : added_) added.entry.clear(), added.value.clear();
     visit(*this);
     record_ = nullptr;
-    if (missing_.empty() && !column_begin_.empty()) return changed;
+    if (missing_.empty() && !column_begin_.empty()) break;
     auto pairs = std::exchange(missing_, {});
     for (std::size_t j = 0; j + 1 < pair_begin_.size(); ++j)
       for (Index k = pair_begin_[j]; k < pair_begin_[j + 1]; ++k)
@@ -54,30 +54,35 @@ bool StiffnessMatrix::assemble(const std::function<void(StiffnessSink&)>& visit)
     make_pattern(std::move(pairs));
     changed = true;
   }
+  if (changed)
+    for (Added& added : added_) added.entry.shrink_to_fit(), added.value.shrink_to_fit();
+  return changed;
 }
 
 bool StiffnessMatrix::reassemble(const std::vector<std::uint8_t>& cells,
                                  const std::function<void(StiffnessSink&)>& visit) {
   changed_.clear();
-  const auto note = [&](const Added& a) {
-    for (const int row : {a.column, rows_[a.entry]})
-      if (changed_.empty() || changed_.back() != row) changed_.push_back(row);
+  // Every element adds to the diagonal of all of its rows.
+  const auto note = [&](const Added& added) {
+    for (const int entry : added.entry)
+      if (changed_.empty() || changed_.back() != rows_[entry]) changed_.push_back(rows_[entry]);
   };
   for (std::size_t c = 0; c < cells.size(); ++c) {
     if (!cells[c]) continue;
-    for (const Added& a : added_[c]) values_[a.entry] -= a.value, note(a);
-    added_[c].clear();
+    Added& added = added_[c];
+    note(added);
+    for (std::size_t k = 0; k < added.entry.size(); ++k) values_[added.entry[k]] -= added.value[k];
+    added.entry.clear(), added.value.clear();
   }
   wanted_ = &cells;
   visit(*this);
   wanted_ = nullptr, record_ = nullptr;
   for (std::size_t c = 0; c < cells.size(); ++c)
-    if (cells[c])
-      for (const Added& a : added_[c]) note(a);
+    if (cells[c]) note(added_[c]);
   return missing_.empty();
 }
 
-bool StiffnessMatrix::begin_element(Index cell) {
+bool StiffnessMatrix::begin_elements(Index cell) {
   if (wanted_ && !(*wanted_)[cell]) return false;
   if (!added_.empty()) record_ = &added_[cell];
   return true;
@@ -118,11 +123,11 @@ void StiffnessMatrix::add(Index i, Index j, const Eigen::Matrix2d& block) {
     if (column_begin_.empty()) return;
     const int x = free_->row(j, 0), y = free_->row(j, 1);
     if (x >= 0) {
-      const std::size_t at = column_begin_[x];
-      put(at, x, block(0, 0));
-      if (y >= 0) put(at + 1, x, block(1, 0));
+      const int at = column_begin_[x];
+      put(at, block(0, 0));
+      if (y >= 0) put(at + 1, block(1, 0));
     }
-    if (y >= 0) put(column_begin_[y], y, block(1, 1));
+    if (y >= 0) put(column_begin_[y], block(1, 1));
     return;
   }
   if (pair_begin_.empty()) {
@@ -140,9 +145,9 @@ void StiffnessMatrix::add(Index i, Index j, const Eigen::Matrix2d& block) {
     const int column = free_->row(j, c);
     if (column < 0) continue;
     const int own = c == 0 && free_->row(j, 1) >= 0 ? 2 : 1;
-    std::size_t at = static_cast<std::size_t>(column_begin_[column] + own + before);
-    if (free_->row(i, 0) >= 0) put(at++, column, block(0, c));
-    if (free_->row(i, 1) >= 0) put(at, column, block(1, c));
+    int at = column_begin_[column] + own + before;
+    if (free_->row(i, 0) >= 0) put(at++, block(0, c));
+    if (free_->row(i, 1) >= 0) put(at, block(1, c));
   }
 }
 

@@ -38,19 +38,19 @@ class FreeComponents {
 /// outside it is remembered and widens it.
 class StiffnessMatrix final : public StiffnessSink {
  public:
-  /// `cells`: so many can be assembled anew alone (`reassemble`), for which what each adds is remembered; 0: only all.
+  /// `cells`: so many can be assembled anew one by one (`reassemble`), for which what each adds is remembered; 0: only all at once.
   explicit StiffnessMatrix(const FreeComponents& free, Index cells = 0) : free_(&free), added_(cells) {}
 
   /// Sums what `visit` adds, in place of what was there. Returns true if the pattern is another one than before.
   bool assemble(const std::function<void(StiffnessSink&)>& visit);
-  /// The same of the elements of these cells (1: of this one) alone; what others have added stays. Returns false where the pattern has no room
-  /// for it: then all must be assembled.
+  /// The same for the elements of some cells (not 0); what others have added stays. Returns false where the pattern has no room for it: then
+  /// all must be assembled.
   bool reassemble(const std::vector<std::uint8_t>& cells, const std::function<void(StiffnessSink&)>& visit);
   void add(Index i, Index j, const Eigen::Matrix2d& block) override;
-  bool begin_element(Index cell) override;
+  bool begin_elements(Index cell) override;
   /// What is added to the diagonal stays until all is assembled.
   void add_to_diagonal(int row, double value) { values_[column_begin_[row]] += value; }
-  /// Rows and columns in which the last `reassemble` may have changed something, some of them more than once.
+  /// Rows in which the last `reassemble` may have changed something, the diagonal included; some of them more than once.
   const std::vector<int>& changed_rows() const { return changed_; }
 
   int size() const { return free_->size(); }
@@ -64,9 +64,9 @@ class StiffnessMatrix final : public StiffnessSink {
 
  private:
   void make_pattern(std::vector<std::pair<Index, Index>> pairs);
-  void put(std::size_t entry, int column, double value) {
+  void put(int entry, double value) {
     values_[entry] += value;
-    if (record_) record_->push_back({static_cast<std::uint32_t>(entry), column, value});
+    if (record_) record_->entry.push_back(entry), record_->value.push_back(value);
   }
 
   const FreeComponents* free_;
@@ -77,12 +77,11 @@ class StiffnessMatrix final : public StiffnessSink {
   std::vector<double> values_;
   std::vector<std::pair<Index, Index>> missing_;  // (column node, row node) outside the pattern
   struct Added {
-    std::uint32_t entry;  // of values_
-    int column;
-    double value;
+    std::vector<int> entry;  // of values_
+    std::vector<double> value;
   };
-  std::vector<std::vector<Added>> added_;              // by the elements of each cell
-  std::vector<Added>* record_ = nullptr;               // of the present element's cell
+  std::vector<Added> added_;                           // by the elements of each cell
+  Added* record_ = nullptr;                            // of the present elements' cell
   const std::vector<std::uint8_t>* wanted_ = nullptr;  // of `reassemble`
   std::vector<int> changed_;
 };

@@ -10,7 +10,7 @@ struct SolverCost {
   std::int64_t forces = 0;          // evaluations of all forces
   std::int64_t solves = 0;          // with the factor
   std::int64_t factorizations = 0;  // tries with another shift included
-  std::int64_t partial = 0;         // of the factor, where something had turned
+  std::int64_t partial_factorizations = 0;  // of what had turned
   std::int64_t updates = 0;         // of the factor, one for each link that broke
 };
 

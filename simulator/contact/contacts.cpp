@@ -225,12 +225,12 @@ void Contacts::add_force(const Field& x, Field& f) const {
 
 void Contacts::add_stiffness(const Field& x, StiffnessSink& sink) const {
   for_each_touch(x, [&](const Pair& pair, const Touch& t) {
-    if (!sink.begin_element(cell_of_[pair.node])) return;
+    if (!sink.begin_elements(cell_of_[pair.node])) return;
     const BoxEntry box = box_of(pair, x);
     add_overlap_stiffness(pair.node, box.node, box.steps, t.feet, t.overlap, t.k, x, sink);
   });
   for_each_spring([&](Index k, const Pair& pair, const FrictionSpring& spring) {
-    if (!sink.begin_element(cell_of_[pair.node])) return;
+    if (!sink.begin_elements(cell_of_[pair.node])) return;
     const Slip moved = slip(spring, x, pair);
     const Sliding s = sliding(k, moved);
     Matrix6 h = s.force * slip_stiffness(spring, x, pair.node, shift(pair, x));

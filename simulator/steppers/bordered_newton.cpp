@@ -44,7 +44,7 @@ bool EquilibriumSolver::bordered_step(const Field& x, const Eigen::VectorXd& f, 
 bool EquilibriumSolver::holds_at(const Field& x) {
   shift_ = 0;
   refactor(x);
-  const bool stable = factored_ && shift_ <= 1e-9;
+  const bool stable = factored_ && is_minimum();
   factored_ = false;
   return stable;
 }

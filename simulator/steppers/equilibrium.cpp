@@ -17,24 +17,15 @@ constexpr int kMostIterations = 400, kMostHalvings = 30;
 constexpr std::size_t kPairs = 12;  // of limited-memory BFGS
 // A factor is made anew where the rate of convergence so far asks for more iterations than this.
 constexpr double kPatience = 7;
+// Where an iteration leaves more than this part of the residual, cells that have turned get a new factor.
+constexpr double kSlow = 0.1;
 // When, and for how long, Newton's method is tried with whole steps.
 constexpr std::array<int, 3> kRushes = {25, 100, 250};
 constexpr int kRushIterations = 25;
-// There: iterations of conjugate gradients at most, and what they may leave.
-constexpr int kGradients = 60;
-constexpr double kSolved = 1e-5;
-// Over the largest diagonal. Loose fragments make the stiffness singular; this keeps it regular, and moves nothing: the forces say when
-// equilibrium is reached.
-constexpr double kLeastShift = 1e-12, kMostShift = 1;
-constexpr double kLoose = 1e-8, kMostLoose = 1e-7;
-const double kTurned = getenv("KT") ? atof(getenv("KT")) : 0.02, kSlow = getenv("KS") ? atof(getenv("KS")) : 0.1,kMostTurned = getenv("KM") ? atof(getenv("KM")) : 0.3;
-constexpr double kLost = 50;  // way of a loose piece in one iteration, in mean segments
-// Over stiffness times extent: positions are rounded, and with them forces.
-constexpr double kRounding = 64 * 2.2e-16;
 // Of the potential and of a force times a mean segment: by less than this it may rise, as it is rounded.
 constexpr double kNoise = 1e-11;
-// A rest whose stiffness takes a larger shift, over the largest diagonal, is no minimum; how often, and how far [mean segments], it is left.
-constexpr double kFlat = 1e-9, kLeaveSaddle = 1e-3;
+// How often, and how far [mean segments], a rest that is no minimum is left.
+constexpr double kLeaveSaddle = 1e-3;
 constexpr int kMostSaddles = 20, kInverseIterations = 10;
 // No node goes further in one iteration, in mean segments.
 constexpr double kFarthest = 0.5;
@@ -51,6 +42,7 @@ EquilibriumSolver::EquilibriumSolver(Model& model, const std::vector<Load>& load
       f_(model.mass.size()),
       cell_of_(cell_of_node(model.sample)),
       dropped_(model.sample.cells(), 0) {
+  loose_ = Eigen::VectorXd::Zero(free_.size());
   for (Term* term : model.terms())
     if (std::find(shell_terms_.begin(), shell_terms_.end(), term) == shell_terms_.end()) other_terms_.push_back(term);
   Index count = 0;
@@ -136,20 +128,6 @@ double EquilibriumSolver::potential(const Field& x) const {
 
 double EquilibriumSolver::noise(double height) const { return kNoise * (std::abs(height) + scale_ * length_); }
 
-// Of 1/2 d (x - s growth - a)^2 all but d by x twice, which stands on the diagonal of each node.
-void EquilibriumSolver::couple_anchors(StiffnessSink& sink) const {
-  const Sample& sample = model_.sample;
-  const Index box = sample.nodes();
-  if (anchor_stiffness_.empty() || box == static_cast<Index>(model_.mass.size()) || !free_.moves(box)) return;
-  Vec2 own = Vec2::Zero();
-  for (Index i = 0; i < box; ++i) {
-    const Vec2 share = carried_share(sample, i), coupling = -anchor_stiffness_[i] * share;
-    sink.add(box, i, coupling.asDiagonal());
-    own -= share.cwiseProduct(coupling);
-  }
-  sink.add(box, box, own.asDiagonal());
-}
-
 double EquilibriumSolver::measure(const Eigen::VectorXd& f) {
   if (f.size() == 0) return residual_ = 0;
   if (!f.allFinite()) return residual_ = std::numeric_limits<double>::infinity();  // which no maximum tells
@@ -157,72 +135,6 @@ double EquilibriumSolver::measure(const Eigen::VectorXd& f) {
   const double left = f.cwiseAbs().maxCoeff(&at);
   worst_node_ = free_.node_of(static_cast<int>(at));
   return residual_ = left > rounding_ ? left / (left + scale_) : 0.0;
-}
-
-void EquilibriumSolver::refactor(const Field& x) {
-  const bool changed = stiffness_.assemble([&](StiffnessSink& sink) {
-    for (const Term* term : model_.terms()) term->add_stiffness(x, sink);
-    couple_anchors(sink);
-  });
-  if (changed) analyzed_ = false;
-  if (loose_.size() != free_.size()) loose_ = Eigen::VectorXd::Zero(free_.size());
-  largest_ = stiffness_.largest_diagonal();
-  for (Index i = 0; i < static_cast<Index>(anchor_stiffness_.size()); ++i)
-    for (int c = 0; c < 2; ++c)
-      if (const int row = free_.row(i, c); row >= 0) stiffness_.add_to_diagonal(row, anchor_stiffness_[i]);
-  for (const double d : anchor_stiffness_) largest_ = std::max(largest_, d);
-  for (int row = 0; row < free_.size(); ++row)
-    if (loose_[row] > 0) stiffness_.add_to_diagonal(row, loose_[row] * largest_);
-  if (!analyzed_) factor_.analyze(stiffness_.column_begin(), stiffness_.rows());
-  analyzed_ = true;
-  const auto [left, right] = std::minmax_element(x.x.begin(), x.x.end());
-  const auto [low, high] = std::minmax_element(x.y.begin(), x.y.end());
-  rounding_ = kRounding * largest_ * std::max(*right - *left, *high - *low);
-  // A shift that was needed a moment ago is tried a little smaller; most of the time none is.
-  for (shift_ = std::max(kLeastShift, 1e-3 * shift_); shift_ <= kMostShift; shift_ *= 30) {
-    ++cost_.factorizations;
-    factored_ = factor_.factorize(stiffness_.values(), shift_ * largest_);
-    if (factored_) break;
-  }
-  factor_x_ = x;
-  dropped_.assign(dropped_.size(), 0);
-  pairs_.clear();
-}
-
-/// Makes the factor anew where cells have turned or stretched since: what does not depend on them stays.
-bool EquilibriumSolver::refactor_turned(const Field& x) {
-  if (!factored_ || !analyzed_) return false;
-  const Sample& sample = model_.sample;
-  std::vector<std::uint8_t> turned(sample.cells(), 0);
-  Index many = 0, total = sample.nodes();
-  for (Index c = 0; c < sample.cells(); ++c) {
-    bool far = dropped_[c] != 0;
-    for (Index i = sample.cell_begin[c]; i < sample.cell_begin[c + 1] && !far; ++i) {
-      const Index j = sample.next(c, i);
-      const Vec2 before = factor_x_.at(j) - factor_x_.at(i), now = x.at(j) - x.at(i);
-      far = (now - before).squaredNorm() > kTurned * kTurned * before.squaredNorm();
-    }
-    if (far) turned[c] = 1;
-  }
-  std::vector<std::uint8_t> near = turned;
-  for (std::size_t l = 0; l < sample.links.size(); ++l)
-    if (turned[cell_of_[sample.links[l].b]]) near[cell_of_[sample.links[l].a]] = 1;
-  for (Index c = 0; c < sample.cells(); ++c)
-    if (near[c]) many += sample.cell_size(c);
-  if (many == 0 || many > kMostTurned * total) return false;
-  if (!stiffness_.reassemble(near, [&](StiffnessSink& sink) {
-        for (const Term* term : model_.terms()) term->add_stiffness(x, sink);
-      }))
-    return false;
-  ++cost_.partial;
-  factored_ = factor_.refactorize(stiffness_.values(), shift_ * largest_, stiffness_.changed_rows());
-  if (!factored_) return false;
-  for (Index c = 0; c < sample.cells(); ++c)
-    if (near[c])
-      for (Index i = sample.cell_begin[c]; i < sample.cell_begin[c + 1]; ++i) factor_x_.set(i, x.at(i));
-  dropped_.assign(dropped_.size(), 0);
-  pairs_.clear();
-  return true;
 }
 
 Eigen::VectorXd EquilibriumSolver::direction(const Eigen::VectorXd& f) {
@@ -254,30 +166,6 @@ double EquilibriumSolver::allowed_share(const Field& x, const Eigen::VectorXd& s
   return share * model_.contacts->safe_share(x, way);
 }
 
-// The factor is kept in single precision: where soft and stiff lie far apart, conjugate gradients bring the digits that it lacks.
-Eigen::VectorXd EquilibriumSolver::tangent_solution(const Eigen::VectorXd& f) {
-  const int n = stiffness_.size();
-  const Eigen::Map<const Eigen::SparseMatrix<double>> lower(
-      n, n, static_cast<Eigen::Index>(stiffness_.values().size()), stiffness_.column_begin().data(),
-      stiffness_.rows().data(), stiffness_.values().data());
-  Eigen::VectorXd x = Eigen::VectorXd::Zero(n), left = f, z = factor_.solve(left), p = z;
-  double energy = left.dot(z);
-  ++cost_.solves;
-  for (int k = 0; k < kGradients && left.norm() > kSolved * f.norm(); ++k) {
-    const Eigen::VectorXd kp = lower.selfadjointView<Eigen::Lower>() * p;
-    const double stiff = p.dot(kp);
-    if (!(stiff > 0)) break;
-    const double alpha = energy / stiff;
-    x += alpha * p, left -= alpha * kp;
-    z = factor_.solve(left);
-    ++cost_.solves;
-    const double next = left.dot(z);
-    p = z + next / energy * p;
-    energy = next;
-  }
-  return x;
-}
-
 // Newton's method as it stands in books: a new tangent and a whole step each time, uphill too. Where something is stiff (a core that keeps its
 // area, walls that keep their length while they turn far) every straight step strains it, and a search that may only go downhill creeps;
 // here the next step takes that strain back.
@@ -290,7 +178,7 @@ bool EquilibriumSolver::rush(Field& x, double tolerance) {
     refactor(x);
     if (!factored_) return false;
     // A minimum, and not just any rest.
-    if (there) return shift_ <= kFlat;
+    if (there) return is_minimum();
     ++cost_.iterations;
     const Eigen::VectorXd step = tangent_solution(f);
     if (!step.allFinite()) return false;
@@ -306,7 +194,7 @@ bool EquilibriumSolver::leave_saddle(Field& x, double height) {
   if (free_.size() == 0) return false;
   shift_ = 0;
   refactor(x);
-  if (!factored_ || shift_ <= kFlat) return false;
+  if (!factored_ || is_minimum()) return false;
   Eigen::VectorXd v(free_.size());
   for (Eigen::Index i = 0; i < v.size(); ++i) v[i] = std::sin(1.0 + 0.7 * static_cast<double>(i * i % 1009));
   for (int k = 0; k < kInverseIterations; ++k) {
@@ -368,14 +256,7 @@ bool EquilibriumSolver::relax(Field& x, double tolerance) {
       step = direction(f);
       slope = step.dot(f);
     }
-    // Nothing holds what goes so far: rounding alone drives it. A larger shift keeps it where it is.
-    const double farthest = step.cwiseAbs().maxCoeff();
-    if (farthest > kLost * length_ && loose_.maxCoeff() < kMostLoose) {
-      for (Eigen::Index k = 0; k < step.size(); ++k)
-        if (std::abs(step[k]) > 0.1 * farthest) loose_[k] = std::max(kLoose, 100 * loose_[k]);
-      factored_ = false;
-      continue;
-    }
+    if (holds_lost(step)) continue;
     double alpha = allowed_share(x, step);
     bool found = false;
     for (int halving = 0; halving < kMostHalvings; ++halving) {
@@ -415,7 +296,7 @@ bool EquilibriumSolver::relax(Field& x, double tolerance) {
     before = residual_;
     measure(f);
     ++since_factor;
-    if (residual_ > tolerance && residual_ > kSlow * before && factored_ && refactor_turned(x)) {
+    if (residual_ > tolerance && residual_ > kSlow * before && refactor_turned(x)) {
       since_factor = 0, first = residual_;
       continue;
     }
@@ -431,54 +312,6 @@ bool EquilibriumSolver::relax(Field& x, double tolerance) {
   if (failure_.empty()) failure_ = fmt::format("no convergence in {} iterations", kMostIterations);
   reached_ = std::exchange(x, start);
   return false;
-}
-
-void EquilibriumSolver::drop_link(Index link) {
-  if (!factored_) return;
-  // Its stiffness as the factor holds it.
-  std::vector<int> rows;
-  Eigen::MatrixXd k = Eigen::MatrixXd::Zero(14, 14);  // six nodes, and the box where it moves
-  struct Local final : StiffnessSink {
-    Local(const FreeComponents& f, std::vector<int>& r, Eigen::MatrixXd& m) : free(f), rows(r), k(m) {}
-    int place(int row) {
-      const auto at = std::find(rows.begin(), rows.end(), row);
-      if (at != rows.end()) return static_cast<int>(at - rows.begin());
-      rows.push_back(row);
-      return static_cast<int>(rows.size()) - 1;
-    }
-    void add(Index i, Index j, const Eigen::Matrix2d& block) override {
-      for (int a = 0; a < 2; ++a)
-        for (int b = 0; b < 2; ++b) {
-          const int row = free.row(i, a), column = free.row(j, b);
-          if (row >= 0 && column >= 0) k(place(row), place(column)) += block(a, b);
-        }
-    }
-    const FreeComponents& free;
-    std::vector<int>& rows;
-    Eigen::MatrixXd& k;
-  } local(free_, rows, k);
-  model_.links->add_stiffness_of(link, factor_x_, local);
-  dropped_[cell_of_[model_.sample.links[link].a]] = 1;
-  const Eigen::Index n = static_cast<Eigen::Index>(rows.size());
-  if (n == 0) return;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(k.topLeftCorner(n, n));
-  const double largest = modes.eigenvalues().cwiseAbs().maxCoeff();
-  // What has held the walls apart first, then what has held them together.
-  for (const int sign : {+1, -1}) {
-    std::vector<Eigen::Index> kept;
-    for (Eigen::Index m = 0; m < n; ++m)
-      if (-sign * modes.eigenvalues()[m] > 1e-10 * largest) kept.push_back(m);
-    if (kept.empty()) continue;
-    Eigen::MatrixXd c(n, static_cast<Eigen::Index>(kept.size()));
-    for (std::size_t m = 0; m < kept.size(); ++m)
-      c.col(static_cast<Eigen::Index>(m)) =
-          std::sqrt(std::abs(modes.eigenvalues()[kept[m]])) * modes.eigenvectors().col(kept[m]);
-    if (!factor_.update(rows, c, sign)) {
-      factored_ = false;
-      return;
-    }
-  }
-  ++cost_.updates;
 }
 
 }  // namespace lamella

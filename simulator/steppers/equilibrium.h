@@ -2,8 +2,9 @@
 // the energy of the terms, f are dead forces, and the last sum is what implicit steps in time add (d = m / dt^2); statics have none.
 //
 // Newton's method whose tangent is kept: a sparse Cholesky factor of an earlier stiffness, from which links that break are taken out as
-// they do (low rank), gives the first direction; limited-memory BFGS updates bring what has changed since. A new factor is made only
-// where that no longer converges fast. Where the stiffness is not positive definite it is shifted until it is, so that every direction goes
+// they do (low rank), gives the first direction; limited-memory BFGS updates bring what has changed since. Where that does not converge at once,
+// the part of the factor that belongs to the cells that have turned meanwhile is made anew, with all that depends on it: after a break these are
+// few. All of it is made anew only where that does not do. Where the stiffness is not positive definite it is shifted until it is, so that every direction goes
 // downhill; a line search on the slope along it makes every step one.
 #pragma once
 #include <deque>
@@ -72,7 +73,13 @@ class EquilibriumSolver {
   Vec2 from_anchor(const Field& x, std::size_t node) const;
   void couple_anchors(StiffnessSink& sink) const;
   void refactor(const Field& x);
+  /// The same for the cells alone that have turned or stretched since their part was made, where that is less work. Returns whether there is a
+  /// new factor; a failed try may leave none.
   bool refactor_turned(const Field& x);
+  std::vector<std::uint8_t> turned_cells(const Field& x) const;
+  bool holds_lost(const Eigen::VectorXd& step);
+  /// Of a rest at which the factor was just made: a larger shift than rounding asks for is one over a saddle.
+  bool is_minimum() const { return shift_ <= 1e-9; }
   bool rush(Field& x, double tolerance);
   bool leave_saddle(Field& x, double height);
   Eigen::VectorXd tangent_solution(const Eigen::VectorXd& f);
@@ -94,7 +101,7 @@ class EquilibriumSolver {
   bool barriers_ =
       false;  // links soften: there is more than one minimum, and a search goes to none that lies higher than its start
   Field reached_;
-  Field factor_x_;  // where the factor was made
+  Field factor_x_;  // of the nodes of each cell: where its part of the factor was made
   double largest_ = 0;     // entry on its diagonal
   Eigen::VectorXd loose_;  // shift of each row beside shift_, where next to nothing holds it
   std::vector<Index> cell_of_;

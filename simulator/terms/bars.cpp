@@ -69,15 +69,17 @@ void Bars::commit_block(Index b, const ShellScratch& w) {
 }
 
 template <class F>
-void Bars::for_each_bar(const Field& x, F&& visit) const {
+void Bars::for_each_bar(const Field& x, F&& visit, StiffnessSink* sink) const {
   const Sample& s = layout_.sample();
-  for (Index c = 0; c < s.cells(); ++c)
+  for (Index c = 0; c < s.cells(); ++c) {
+    if (sink && !sink->begin_elements(c)) continue;
     for (Index i = s.cell_begin[c]; i < s.cell_begin[c + 1]; ++i) {
       const Index slot = ShellLayout::slot(c, i);
       if (stiffness_[slot] == 0) continue;
       const Index j = s.next(c, i);
       visit(c, i, j, slot, (x.at(j) - x.at(i)).norm());
     }
+  }
 }
 
 double Bars::energy(const Field& x) const {
@@ -103,8 +105,7 @@ std::vector<double> Bars::stored(const Field& x) const {
 
 // d2W/de2 = k t t^T + (T / l) n n^T, k = 0 while the bar flows.
 void Bars::add_stiffness(const Field& x, StiffnessSink& sink) const {
-  for_each_bar(x, [&](Index c, Index i, Index j, Index slot, double length) {
-    if (!sink.begin_element(c)) return;
+  const auto add = [&](Index, Index i, Index j, Index slot, double length) {
     double k = stiffness_[slot], tension = k * (length - rest_length_[slot]);
     if (!yield_.empty()) {
       const double trial = tension - k * plastic_[slot];
@@ -115,7 +116,8 @@ void Bars::add_stiffness(const Field& x, StiffnessSink& sink) const {
     const Eigen::Matrix2d block = k * t * t.transpose() + (tension / length) * n * n.transpose();
     sink.add(i, i, block), sink.add(j, j, block);
     sink.add(i, j, -block), sink.add(j, i, -block);
-  });
+  };
+  for_each_bar(x, add, &sink);
 }
 
 void Bars::save(ArraySet& restart) const {

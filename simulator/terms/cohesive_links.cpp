@@ -390,7 +390,7 @@ Vec2 CohesiveLinks::force_on_box(Index first, Index last, const LinkForces& w) c
 void CohesiveLinks::add_stiffness(const Field& x, StiffnessSink& sink) const {
   const std::vector<Index> cell = cell_of_node(sample_);
   for (Index l = 0; l < static_cast<Index>(sample_.links.size()); ++l)
-    if (intact_[l] && sink.begin_element(cell[sample_.links[l].a])) add_stiffness_of(l, x, sink);
+    if (intact_[l] && sink.begin_elements(cell[sample_.links[l].a])) add_stiffness_of(l, x, sink);
 }
 
 void CohesiveLinks::add_stiffness_of(Index l, const Field& x, StiffnessSink& sink) const {

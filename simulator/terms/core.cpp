@@ -88,7 +88,7 @@ void Core::add_stiffness(const Field& x, StiffnessSink& sink) const {
   const Sample& s = layout_.sample();
   std::vector<Vec2> gradient;
   for (Index c = 0; c < s.cells(); ++c) {
-    if (!present(c) || !sink.begin_element(c)) continue;
+    if (!present(c) || !sink.begin_elements(c)) continue;
     const Index begin = s.cell_begin[c], n = s.cell_size(c);
     gradient.resize(n);
     for (Index k = 0; k < n; ++k) {

@@ -88,9 +88,10 @@ void Hinges::commit_block(Index b, const ShellScratch& w) {
 }
 
 template <class F>
-void Hinges::for_each_hinge(const Field& x, F&& visit) const {
+void Hinges::for_each_hinge(const Field& x, F&& visit, StiffnessSink* sink) const {
   const Sample& s = layout_.sample();
-  for (Index c = 0; c < s.cells(); ++c)
+  for (Index c = 0; c < s.cells(); ++c) {
+    if (sink && !sink->begin_elements(c)) continue;
     for (Index i = s.cell_begin[c]; i < s.cell_begin[c + 1]; ++i) {
       const Index slot = ShellLayout::slot(c, i);
       if (stiffness_[slot] == 0) continue;
@@ -99,6 +100,7 @@ void Hinges::for_each_hinge(const Field& x, F&& visit) const {
       const double angle = unwrapped(angle_of(cross(e1, e2), e1.dot(e2)), static_cast<double>(last_angle_[slot]));
       visit(c, h, i, j, slot, stiffness_[slot] * (angle - rest_angle_[slot]));
     }
+  }
 }
 
 double Hinges::energy(const Field& x) const {
@@ -121,8 +123,7 @@ std::vector<double> Hinges::stored(const Field& x) const {
 
 // theta = phi_2 - phi_1 with d(phi)/de = n / l and d2(phi)/de2 = -(t n^T + n t^T) / l^2.
 void Hinges::add_stiffness(const Field& x, StiffnessSink& sink) const {
-  for_each_hinge(x, [&](Index c, Index h, Index i, Index j, Index slot, double trial) {
-    if (!sink.begin_element(c)) return;
+  const auto add = [&](Index, Index h, Index i, Index j, Index slot, double trial) {
     double k = stiffness_[slot], moment = trial;
     if (!yield_.empty() && std::abs(trial) > yield_[slot]) k = 0, moment = returned(trial, yield_[slot]);
     const Index node[3] = {h, i, j};
@@ -144,7 +145,8 @@ void Hinges::add_stiffness(const Field& x, StiffnessSink& sink) const {
         }
         sink.add(node[a], node[b], block);
       }
-  });
+  };
+  for_each_hinge(x, add, &sink);
 }
 
 void Hinges::save(ArraySet& restart) const {

@@ -18,7 +18,7 @@ class StiffnessSink {
   virtual void add(Index i, Index j, const Eigen::Matrix2d& block) = 0;
   /// Asked before each element, of which what follows is the stiffness: whether it is wanted at all. `cell`: one that it belongs to, the same
   /// every time (of links: that of node a).
-  virtual bool begin_element(Index /*cell*/) { return true; }
+  virtual bool begin_elements(Index /*cell*/) { return true; }
 };
 
 class Term {

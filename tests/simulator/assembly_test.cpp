@@ -72,6 +72,57 @@ TEST(Assembly, takes_blocks_that_were_not_there_before) {
   EXPECT_NEAR(more(free.row(40, 0), free.row(5, 1)), 3, 1e-12);
 }
 
+/// Elements of some cells alone, into another sink.
+struct OfCells final : StiffnessSink {
+  OfCells(StiffnessSink& to, const std::vector<std::uint8_t>& cells, std::uint8_t which)
+      : sink(to), wanted(cells), value(which) {}
+  void add(Index i, Index j, const Eigen::Matrix2d& block) override { sink.add(i, j, block); }
+  bool begin_elements(Index cell) override { return wanted[cell] == value; }
+  StiffnessSink& sink;
+  const std::vector<std::uint8_t>& wanted;
+  std::uint8_t value;
+};
+
+TEST(Assembly, of_some_cells_anew_leaves_what_the_others_have_added) {
+  HeldTissue tissue;  // bars, hinges, cores, links, and contacts where walls are pressed into each other
+  tissue.stage.contact.emplace().normal_stiffness = 100.0;
+  tissue.model = build_model(tissue.sample, tissue.stage, tissue.x);
+  const FreeComponents free(tissue.sample.nodes(), tissue.loads);
+  StiffnessMatrix k(free, tissue.sample.cells()), oracle(free);
+  ASSERT_TRUE(tissue.assemble(k));
+  const Field before = tissue.x, now = shaken(tissue.sample, 0.02, 7);
+  const std::vector<std::uint8_t> cells{1, 0, 0, 1, 0, 1};
+  ASSERT_EQ(tissue.sample.cells(), static_cast<Index>(cells.size()));
+  const auto visit_at = [&](const Field& x) {
+    return [&](StiffnessSink& sink) {
+      for (const Term* term : tissue.model->terms()) term->add_stiffness(x, sink);
+    };
+  };
+  // What contacts add may lie elsewhere now: then all is assembled, once.
+  if (!k.reassemble(cells, visit_at(now))) {
+    k.assemble(visit_at(now)), k.assemble(visit_at(before));
+    ASSERT_TRUE(k.reassemble(cells, visit_at(now)));
+  }
+  oracle.assemble([&](StiffnessSink& sink) {
+    OfCells others(sink, cells, 0), these(sink, cells, 1);
+    visit_at(before)(others), visit_at(now)(these);
+  });
+  const Eigen::MatrixXd expected = Eigen::MatrixXd(oracle.full()), scale = tissue.dense(free);
+  const double rounding = 1e-12 * scale.cwiseAbs().maxCoeff();
+  EXPECT_LT((Eigen::MatrixXd(k.full()) - expected).cwiseAbs().maxCoeff(), rounding);
+  // All of them anew are all, and what was changed on the way is told.
+  k.assemble(visit_at(before));
+  const Eigen::MatrixXd was(k.full());
+  ASSERT_TRUE(k.reassemble(cells, visit_at(now)));
+  const Eigen::MatrixXd change = Eigen::MatrixXd(k.full()) - was;
+  const auto& told = k.changed_rows();
+  for (int row = 0; row < free.size(); ++row)
+    EXPECT_EQ(change.row(row).cwiseAbs().maxCoeff() > rounding, std::find(told.begin(), told.end(), row) != told.end());
+  ASSERT_TRUE(k.reassemble(std::vector<std::uint8_t>(cells.size(), 1), visit_at(now)));
+  tissue.x = now;
+  EXPECT_LT((Eigen::MatrixXd(k.full()) - tissue.dense(free)).cwiseAbs().maxCoeff(), rounding);
+}
+
 TEST(Assembly, gathers_and_moves_free_components_alone) {
   const HeldTissue tissue;
   const FreeComponents free(tissue.sample.nodes(), tissue.loads);

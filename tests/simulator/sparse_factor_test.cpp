@@ -90,6 +90,35 @@ TEST(SparseFactor, updated_equals_made_anew) {
   EXPECT_LT((factor.solve(b) - exact).norm(), kSingle * exact.norm());
 }
 
+TEST(SparseFactor, made_anew_in_part_is_made_anew) {
+  Grid grid(20);
+  const double shift = 0.05;
+  SparseFactor factor, whole;
+  factor.analyze(grid.begin, grid.rows), whole.analyze(grid.begin, grid.rows);
+  ASSERT_TRUE(factor.factorize(grid.values, shift));
+  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(grid.dense.rows(), 1, -3);
+  const auto change_near = [&](int node) {
+    std::vector<int> rows;
+    for (const int row : {2 * node, 2 * node + 1, 2 * node + 40, 2 * node + 41}) {
+      grid.values[grid.begin[row]] += 0.3;
+      rows.push_back(row);
+    }
+    return rows;
+  };
+  for (const int node : {0, 123, 377}) {
+    const std::vector<int> rows = change_near(node);
+    ASSERT_TRUE(factor.refactorize(grid.values, shift, rows));
+    ASSERT_TRUE(whole.factorize(grid.values, shift));
+    EXPECT_EQ(factor.solve(b), whole.solve(b));
+  }
+  // What an update has done to the factor alone is undone where its rows are made anew, and nowhere else.
+  const std::vector<int> updated{200, 201, 202, 203};
+  ASSERT_TRUE(factor.update(updated, 0.3 * Eigen::MatrixXd::Ones(4, 1), +1));
+  EXPECT_NE(factor.solve(b), whole.solve(b));
+  ASSERT_TRUE(factor.refactorize(grid.values, shift, {}));
+  EXPECT_EQ(factor.solve(b), whole.solve(b));
+}
+
 TEST(SparseFactor, refuses_an_update_that_it_has_no_room_for) {
   const Grid grid(15);
   SparseFactor factor;
