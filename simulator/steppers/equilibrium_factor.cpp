@@ -89,6 +89,7 @@ std::vector<std::uint8_t> EquilibriumSolver::turned_cells(const Field& x) const 
 }
 
 bool EquilibriumSolver::refactor_turned(const Field& x) {
+  if (!is_minimum()) return false;  // the shift may be less now, and is everybody's
   const Sample& sample = model_.sample;
   const std::vector<std::uint8_t> turned = turned_cells(x);
   Index nodes = 0;
