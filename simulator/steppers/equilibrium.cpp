@@ -14,6 +14,9 @@ namespace lamella {
 namespace {
 
 constexpr int kMostIterations = 400, kMostHalvings = 30;
+// So many iterations in a row that go no further than this [mean segments] lead nowhere where links soften: forces jump there.
+constexpr int kMostStalls = 3;
+constexpr double kStalled = 1e-10;
 constexpr std::size_t kPairs = 12;  // of limited-memory BFGS
 // A factor is made anew where the rate of convergence so far asks for more iterations than this.
 constexpr double kPatience = 7;
@@ -225,7 +228,7 @@ bool EquilibriumSolver::relax(Field& x, double tolerance) {
   double first = measure(f), before = first;
   // Where links soften, a step may end beyond a barrier although the slope along it is small there.
   double height = barriers_ ? potential(x) : 0.0, height_there = 0;
-  int since_factor = 0, saddles = 0;
+  int since_factor = 0, saddles = 0, stalled = 0;
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
     if (!std::isfinite(residual_)) break;
     if (residual_ <= tolerance) {
@@ -246,7 +249,7 @@ bool EquilibriumSolver::relax(Field& x, double tolerance) {
     }
     ++cost_.iterations;
     if (!factored_) {
-      refactor(x), since_factor = 0, first = before;
+      refactor(x, true), since_factor = 0, first = before;
       if (!factored_ || measure(f) <= tolerance) break;
     }
     Eigen::VectorXd step = direction(f);
@@ -281,6 +284,11 @@ bool EquilibriumSolver::relax(Field& x, double tolerance) {
         evaluate_all(x, f);
         continue;
       }
+      break;
+    }
+    stalled = alpha * step.cwiseAbs().maxCoeff() < kStalled * length_ ? stalled + 1 : 0;
+    if (barriers_ && stalled > kMostStalls) {
+      failure_ = "the search stands still";
       break;
     }
     Pair pair{alpha * step, f - next, 0};

@@ -72,14 +72,15 @@ class EquilibriumSolver {
   double noise(double height) const;
   Vec2 from_anchor(const Field& x, std::size_t node) const;
   void couple_anchors(StiffnessSink& sink) const;
-  void refactor(const Field& x);
+  void assemble(const Field& x);
+  void refactor(const Field& x, bool convex = false);
   /// The same for the cells alone that have turned or stretched since their part was made, where that is less work. Returns whether there is a
   /// new factor; a failed try may leave none.
   bool refactor_turned(const Field& x);
   std::vector<std::uint8_t> turned_cells(const Field& x) const;
   bool holds_lost(const Eigen::VectorXd& step);
   /// Of a rest at which the factor was just made: a larger shift than rounding asks for is one over a saddle.
-  bool is_minimum() const { return shift_ <= 1e-9; }
+  bool is_minimum() const { return !stiffness_.convex() && shift_ <= 1e-9; }
   bool rush(Field& x, double tolerance);
   bool leave_saddle(Field& x, double height);
   Eigen::VectorXd tangent_solution(const Eigen::VectorXd& f);

@@ -42,12 +42,11 @@ void EquilibriumSolver::couple_anchors(StiffnessSink& sink) const {
   sink.add(box, box, own.asDiagonal());
 }
 
-void EquilibriumSolver::refactor(const Field& x) {
+void EquilibriumSolver::assemble(const Field& x) {
   const bool changed = stiffness_.assemble([&](StiffnessSink& sink) {
     for (const Term* term : model_.terms()) term->add_stiffness(x, sink);
     couple_anchors(sink);
   });
-  if (changed) analyzed_ = false;
   largest_ = stiffness_.largest_diagonal();
   for (Index i = 0; i < static_cast<Index>(anchor_stiffness_.size()); ++i)
     for (int c = 0; c < 2; ++c)
@@ -55,17 +54,30 @@ void EquilibriumSolver::refactor(const Field& x) {
   for (const double d : anchor_stiffness_) largest_ = std::max(largest_, d);
   for (int row = 0; row < free_.size(); ++row)
     if (loose_[row] > 0) stiffness_.add_to_diagonal(row, loose_[row] * largest_);
-  if (!analyzed_) factor_.analyze(stiffness_.column_begin(), stiffness_.rows());
+  if (changed || !analyzed_) factor_.analyze(stiffness_.column_begin(), stiffness_.rows());
   analyzed_ = true;
+}
+
+void EquilibriumSolver::refactor(const Field& x, bool convex) {
+  const auto try_with = [&](double shift) {
+    shift_ = shift;
+    ++cost_.factorizations;
+    factored_ = factor_.factorize(stiffness_.values(), shift_ * largest_);
+    return factored_;
+  };
+  stiffness_.set_convex(false);
+  assemble(x);
   const auto [left, right] = std::minmax_element(x.x.begin(), x.x.end());
   const auto [low, high] = std::minmax_element(x.y.begin(), x.y.end());
   rounding_ = kRounding * largest_ * std::max(*right - *left, *high - *low);
   // A shift that was needed a moment ago is tried a little smaller; most of the time none is.
-  for (shift_ = std::max(kLeastShift, 1e-3 * shift_); shift_ <= kMostShift; shift_ *= 30) {
-    ++cost_.factorizations;
-    factored_ = factor_.factorize(stiffness_.values(), shift_ * largest_);
-    if (factored_) break;
+  double shift = std::max(kLeastShift, 1e-3 * shift_);
+  if (!try_with(shift) && convex) {
+    stiffness_.set_convex(true);
+    assemble(x);
+    try_with(shift = kLeastShift);
   }
+  while (!factored_ && (shift *= 30) <= kMostShift) try_with(shift);
   factor_x_ = x;
   dropped_.assign(model_.sample.cells(), 0);
   pairs_.clear();
