@@ -8,7 +8,6 @@
 #include <numbers>
 #include <optional>
 
-#include "generator/packing/domain.h"
 #include "generator/packing/laguerre.h"
 #include "generator/packing/packing.h"
 #include "generator/packing/variation.h"
@@ -17,6 +16,7 @@
 #include "generator/sample/scene_place.h"
 #include "generator/tissue/bricks.h"
 #include "generator/tissue/cell_areas.h"
+#include "generator/tissue/check_tiles.h"
 #include "generator/tissue/image_tissue.h"
 #include "generator/tissue/lattice.h"
 #include "generator/tissue/missing_links.h"
@@ -70,7 +70,9 @@ Mosaic make_packed_mosaic(const Scene& scene, Notes& notes, const Progress& prog
                                   });
   Tessellation tessellation =
       exact ? exact->tessellation
-            : tessellate_packing(packing.disks, packing.box, laguerre_options(scene.sample.packing, periodic), notes);
+            : tessellate_packing(packing.disks, packing.box, laguerre_options(scene.sample.packing, periodic), notes,
+                                 packing.number);
+  origin.sites = exact ? exact->sites() : packing.disks;
   // Cocircular sites leave edges without length, which no wall can be made of: those are welded whatever is asked.
   const double share = std::max(scene.sample.walls.weld, 1e-9);
   origin.welded = weld_short_edges(tessellation, share * mean_edge_length(tessellation), &notes);
@@ -150,11 +152,11 @@ Box enclosing_box(const Sample& sample) {
   return box;
 }
 
-void check(const Sample& sample, const SampleScene& asked) {
-  // A tessellation leaves no gap: where nothing is taken away or added it fills its box, or its domain.
-  const bool fills = asked.kind == "tissue" && !asked.notch && asked.shapes.empty();
-  const double room = !fills ? 0 : asked.domain ? make_domain(*asked.domain).area : sample.box.area();
-  auto violations = check_sample(sample, room);
+void check(const Sample& sample, const SampleScene& asked, const Mosaic& tiles) {
+  const Filled filled = filled_by(asked, sample.box);
+  auto violations = check_sample(sample, asked.shapes.empty() ? filled.area : 0);
+  if (!tiles.cells.empty())
+    for (std::string& fault : check_tiles(tiles, filled)) violations.push_back(std::move(fault));
   if (violations.empty()) return;
   violations.insert(violations.begin(), fmt::format("sample: the {} that the scene asks for is not sound", asked.kind));
   throw SceneError(violations);
@@ -197,7 +199,7 @@ Sample generated(const Scene& scene, Notes& notes, const Progress& progress, Ori
   sample.scene_text = scene.text;
   sample.seed = scene.seed;
   if (progress) progress(0.95, "check");
-  check(sample, asked);
+  check(sample, asked, from.tiles);
   if (progress) progress(1, "done");
   return sample;
 }
