@@ -10,6 +10,7 @@
 
 #include "generator/packing/laguerre.h"
 #include "generator/packing/packing.h"
+#include "generator/packing/stretch.h"
 #include "generator/packing/variation.h"
 #include "generator/packing/weld.h"
 #include "generator/sample/errors.h"
@@ -50,17 +51,30 @@ Sample make_tissue(Mosaic& mosaic, const Scene& scene, Notes& notes, Origin& ori
   return sample;
 }
 
+/// What is filled with cells that are round on average, before it is drawn out along its axes.
+Scene squeezed(Scene scene, const Vec2& drawn) {
+  scene.sample.width /= drawn.x();
+  scene.sample.height /= drawn.y();
+  return scene;
+}
+
 Mosaic make_packed_mosaic(const Scene& scene, Notes& notes, const Progress& progress, Origin& origin) {
-  if (scene.sample.domain || scene.sample.stretch) return make_domain_mosaic(scene, notes, progress, origin);
+  const auto& stretch = scene.sample.stretch;
+  if (scene.sample.domain || (stretch && scene.sample.periodic == "none"))
+    return make_domain_mosaic(scene, notes, progress, origin);
   const Periodic periodic = periodic_of(scene.sample);
+  const Box asked{Vec2::Zero(), {scene.sample.width, scene.sample.height}};
+  const Vec2 drawn = stretch ? stretch_of_axes(*stretch) : Vec2::Ones();
+  PositionFactor factor = size_factor(scene.sample, asked);
+  if (factor && stretch) factor = [=, whole = factor](const Vec2& p) { return whole(p.cwiseProduct(drawn)); };
   Packing& packing = origin.packing = make_packing(
-      scene,
+      stretch ? squeezed(scene, drawn) : scene,
       [&](double done, const std::string& what) {
         if (progress) progress(0.7 * done, what);
       },
-      size_factor(scene.sample, {Vec2::Zero(), {scene.sample.width, scene.sample.height}}));
+      factor);
   notes.insert(notes.end(), packing.notes.begin(), packing.notes.end());
-  vary_disks(packing, scene.sample, packing.box, Eigen::Matrix2d::Identity(), notes);
+  vary_disks(packing, scene.sample, stretch ? asked : packing.box, drawn.asDiagonal(), notes);
   if (progress) progress(0.7, "tessellation");
   std::optional<CellAreas> exact;
   if (scene.sample.areas)
@@ -72,7 +86,11 @@ Mosaic make_packed_mosaic(const Scene& scene, Notes& notes, const Progress& prog
       exact ? exact->tessellation
             : tessellate_packing(packing.disks, packing.box, laguerre_options(scene.sample.packing, periodic), notes,
                                  packing.number);
-  origin.sites = exact ? exact->sites() : packing.disks;
+  if (!stretch) origin.sites = exact ? exact->sites() : packing.disks;
+  if (stretch) {
+    tessellation.box = asked;
+    for (Vec2& vertex : tessellation.vertices) vertex = vertex.cwiseProduct(drawn);
+  }
   // Cocircular sites leave edges without length, which no wall can be made of: those are welded whatever is asked.
   const double share = std::max(scene.sample.walls.weld, 1e-9);
   origin.welded = weld_short_edges(tessellation, share * mean_edge_length(tessellation), &notes);
