@@ -18,10 +18,11 @@ using Notes = std::vector<std::string>;
 struct Origin {
   Packing packing;  // the disks; of tissues and rings
   std::vector<Disk>
-      sites;         // whose Laguerre tiles the tiles are, but for welding: with exact areas not the disks; maybe none
-  Mosaic tiles;      // of which the walls were inset, tile k that of cell k; shapes have none
-  Index hidden = 0;  // disks without a tile
-  Index welded = 0;  // edges that were welded to a point
+      sites;  // whose Laguerre tiles the tiles are, but for welding: with exact areas not the disks; maybe none
+  std::vector<double> asked;  // in proportion, areas that [sample.areas] prescribes for each site; else empty
+  Mosaic tiles;               // of which the walls were inset, tile k that of cell k; shapes have none
+  Index hidden = 0;           // disks without a tile
+  Index welded = 0;           // edges that were welded to a point
 };
 
 /// Makes the sample that the scene asks for; same scene and seed, same sample, bit for bit.

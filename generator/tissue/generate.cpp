@@ -86,6 +86,7 @@ Mosaic make_packed_mosaic(const Scene& scene, Notes& notes, const Progress& prog
       exact ? exact->tessellation
             : tessellate_packing(packing.disks, packing.box, laguerre_options(scene.sample.packing, periodic), notes,
                                  packing.number);
+  if (exact) origin.asked = exact->shares;
   if (!stretch) origin.sites = exact ? exact->sites() : packing.disks;
   if (stretch) {
     tessellation.box = asked;

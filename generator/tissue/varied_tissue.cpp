@@ -71,6 +71,7 @@ Mosaic make_domain_mosaic(const Scene& scene, Notes& notes, const TissueProgress
           if (progress) progress(0.7 + 0.1 * done, what);
         });
     if (!asked.stretch) origin.sites = exact.sites();
+    origin.asked = exact.shares;
     tiles = std::move(exact.tessellation);
   } else {
     tiles = tessellate_packing(packing.disks, box_around(squeezed_domain.loops, packing.disks), options, notes,
