@@ -16,15 +16,18 @@ using Notes = std::vector<std::string>;
 
 /// What a sample was made from: for statistics and for other programs. Empty where a scene has no such thing.
 struct Origin {
-  Packing packing;   // the disks; of tissues and rings
-  Mosaic tiles;      // of which the walls were inset, tile k that of cell k; shapes have none
-  Index hidden = 0;  // disks without a tile
-  Index welded = 0;  // edges that were welded to a point
+  Packing packing;  // the disks; of tissues and rings
+  std::vector<Disk>
+      sites;  // whose Laguerre tiles the tiles are, but for welding: with exact areas not the disks; maybe none
+  std::vector<double> asked;  // in proportion, areas that [sample.areas] prescribes for each site; else empty
+  Mosaic tiles;               // of which the walls were inset, tile k that of cell k; shapes have none
+  Index hidden = 0;           // disks without a tile
+  Index welded = 0;           // edges that were welded to a point
 };
 
 /// Makes the sample that the scene asks for; same scene and seed, same sample, bit for bit.
 /// `progress(done, what)` is called with done in [0, 1]. `origin`: filled when given. Every sample that is returned has
-/// passed check_sample. Throws SceneError where the scene cannot be met.
+/// passed check_sample, and its tiles check_tiles and, before welding, check_powers and check_disks. Throws SceneError where the scene cannot be met.
 Sample generate(const Scene& scene, Notes& notes, const std::function<void(double, const std::string&)>& progress = {},
                 Origin* origin = nullptr);
 

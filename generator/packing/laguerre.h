@@ -90,4 +90,12 @@ double mean_edge_length(const Tessellation& tessellation);
 /// vertices, tiles are convex and counter-clockwise, V - E + F = 1 (periodic: 0), boundary vertices lie on their side.
 std::vector<std::string> check_tessellation(const Tessellation& tessellation);
 
+/// The same for what makes tiles those of their sites (before anything is welded): at both ends of every wall the powers
+/// |p - x_i|^2 - w_i of its two sites are equal, to 1e-12 of a mean tile's area and to the rounding of coordinates; hence
+/// walls are at right angles to the line through the sites. `weights` [m2]: squared radii of disks.
+std::vector<std::string> check_powers(const Tessellation& tessellation, const std::vector<Vec2>& centres,
+                                      const std::vector<double>& weights);
+/// The same of disks, and that a disk which does not overlap its neighbours lies in its tile, to 1e-9 of its radius.
+std::vector<std::string> check_disks(const Tessellation& tessellation, const std::vector<Disk>& disks);
+
 }  // namespace lamella

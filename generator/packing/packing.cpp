@@ -152,6 +152,8 @@ Packing make_packing(const Scene& scene, const PackingProgress& progress, const 
   Packing packing = at_random ? scattered(packing_scene, sizes.radius, space, scene.seed)
                               : pack(packing_scene, sizes.radius, space, scene.seed, progress);
   packing.group = std::move(sizes.group);
+  packing.part = std::move(sizes.part);
+  packing.area_share = std::move(sizes.area_share);
   return packing;
 }
 

@@ -23,9 +23,12 @@ struct Packing {
   Box box;
   Periodic periodic{false, false};
   std::vector<Disk> disks;
+  std::vector<int> number;  // of each disk in its file, from 0, where others are left out; else empty: its place here
   std::vector<double>
       target_area;  // of each disk's cell, where a file states it [m2]; empty: in proportion to the disks
   std::vector<std::string> group;  // of each disk's cell; empty: "cells"
+  std::vector<int> part;           // of each disk, of a mixture whose parts state their share of the area; else empty
+  std::vector<double> area_share;  // of each such part
   std::vector<double> thickness;   // factor on the wall's thickness of each disk's cell; empty: 1
   double fraction = 0;             // area of the disks over area of the box, or of the domain [1]
   double size_deviation = 0;       // of radii that depend on the place: largest relative error [1]

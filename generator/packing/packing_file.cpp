@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <map>
+#include <numeric>
 #include <optional>
 
 #include "generator/packing/tess_file.h"
@@ -115,7 +116,9 @@ Packing read_packing(const std::filesystem::path& path, const Box* box, const st
   Faults faults(path.string());
   std::map<std::array<double, 3>, int> line_of;
   bool first = true;
-  int left_out = 0;
+  std::vector<std::string> left_out;
+  std::vector<int> number;
+  int row_number = -1;
   int columns_set_by = 0;  // line of the first disk
   bool with_area = false;
   std::string line;
@@ -128,13 +131,14 @@ Packing read_packing(const std::filesystem::path& path, const Box* box, const st
     const auto row = parse_row(line, line_number, faults);
     if (!row) continue;
     const Disk* disk = &row->disk;
+    ++row_number;
     if (columns_set_by == 0) columns_set_by = line_number, with_area = row->target_area.has_value();
     if (row->target_area.has_value() != with_area)
       faults.add(line_number, fmt::format("{} target_area, line {} has {}: give it for all disks, or for none",
                                           with_area ? "no" : "a", columns_set_by, with_area ? "one" : "none"));
     const auto [same, is_new] = line_of.insert({{disk->centre.x(), disk->centre.y(), disk->radius}, line_number});
     if (!is_new && duplicates == "keep_first") {
-      ++left_out;
+      if (left_out.size() < 10) left_out.push_back(fmt::format("{} (line {})", row_number, line_number));
       continue;
     }
     if (!is_new)
@@ -147,6 +151,7 @@ Packing read_packing(const std::filesystem::path& path, const Box* box, const st
                  fmt::format("the centre ({:.9g}, {:.9g}) lies outside the box [{:.9g}, {:.9g}] x [{:.9g}, {:.9g}]",
                              disk->centre.x(), disk->centre.y(), box->lo.x(), box->hi.x(), box->lo.y(), box->hi.y()));
     packing.disks.push_back(*disk);
+    number.push_back(row_number);
     if (row->target_area) packing.target_area.push_back(*row->target_area);
   }
   if (packing.disks.empty() && faults.none()) faults.add("holds no disk: must have at least one line x,y,r");
@@ -162,9 +167,13 @@ Packing read_packing(const std::filesystem::path& path, const Box* box, const st
     }
   }
   packing.fraction = area_fraction(packing.disks, packing.box);
-  if (left_out > 0)
-    packing.notes.push_back(
-        fmt::format("{}: {} disks left out that occur earlier in the file", path.string(), left_out));
+  if (left_out.empty()) return packing;
+  packing.notes.push_back(
+      fmt::format("{}: {} disks left out that occur earlier in the file: {}{}; the others keep their "
+                  "numbers",
+                  path.string(), row_number + 1 - static_cast<int>(number.size()), fmt::join(left_out, ", "),
+                  left_out.size() == 10 ? ", ..." : ""));
+  packing.number = std::move(number);
   return packing;
 }
 
@@ -173,16 +182,22 @@ void keep_first_at_each_place(Packing& packing) {
   std::vector<std::string> dropped;
   const bool with_area = !packing.target_area.empty();
   std::size_t kept = 0;
+  std::vector<int> number = packing.number;
+  if (number.empty()) {
+    number.resize(packing.disks.size());
+    std::iota(number.begin(), number.end(), 0);
+  }
   for (std::size_t k = 0; k < packing.disks.size(); ++k) {
     Vec2 place = packing.disks[k].centre;
     for (const int axis : {0, 1})
       if (packing.periodic[axis] && place[axis] == packing.box.hi[axis]) place[axis] = packing.box.lo[axis];
     const auto [same, is_new] = first.insert({{place.x(), place.y()}, k});
     if (!is_new) {
-      if (dropped.size() < 10) dropped.push_back(fmt::format("{} as {}", k, same->second));
+      if (dropped.size() < 10) dropped.push_back(fmt::format("{} as {}", number[k], number[same->second]));
       continue;
     }
     packing.disks[kept] = packing.disks[k];
+    number[kept] = number[k];
     if (with_area) packing.target_area[kept] = packing.target_area[k];
     ++kept;
   }
@@ -192,6 +207,8 @@ void keep_first_at_each_place(Packing& packing) {
                   "between them: {}",
                   packing.disks.size() - kept, fmt::join(dropped, ", ")));
   packing.disks.resize(kept);
+  number.resize(kept);
+  packing.number = std::move(number);
   if (with_area) packing.target_area.resize(kept);
   packing.fraction = area_fraction(packing.disks, packing.box);
 }

@@ -169,6 +169,9 @@ Sizes mixed(const std::vector<MixtureScene>& mixture, int count, Random& random)
     const auto radii = stratified(quantile_of(part.distribution, part.mean, part.cv), numbers[k], random);
     sizes.radius.insert(sizes.radius.end(), radii.begin(), radii.end());
     sizes.group.insert(sizes.group.end(), radii.size(), part.group);
+    if (!part.area_share) continue;
+    sizes.part.insert(sizes.part.end(), radii.size(), static_cast<int>(k));
+    sizes.area_share.push_back(*part.area_share);
   }
   return sizes;
 }
@@ -193,6 +196,7 @@ Sizes draw_sizes(const SizesScene& scene, int count, std::uint64_t seed, const S
     const std::size_t other = random.below(k);
     std::swap(sizes.radius[k - 1], sizes.radius[other]);
     if (!sizes.group.empty()) std::swap(sizes.group[k - 1], sizes.group[other]);
+    if (!sizes.part.empty()) std::swap(sizes.part[k - 1], sizes.part[other]);
   }
   return sizes;
 }

@@ -12,6 +12,8 @@ namespace lamella {
 struct Sizes {
   std::vector<double> radius;      // of each disk [m]
   std::vector<std::string> group;  // of each disk's cell, from a mixture; empty: "cells"
+  std::vector<int> part;           // of each disk, of a mixture by area; else empty
+  std::vector<double> area_share;  // of each such part
 };
 
 /// `count` radii in random order. They are stratified: one draw from each of `count` equally probable classes (of a mixture:

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 #include "generator/sample/errors.h"
@@ -17,6 +18,14 @@ Eigen::Matrix2d stretch_map(const StretchScene& stretch) {
   Eigen::Matrix2d turn;
   turn << c, -s, s, c;
   return turn * Eigen::Vector2d(longer, 1 / longer).asDiagonal() * turn.transpose();
+}
+
+Vec2 stretch_of_axes(const StretchScene& stretch) {
+  const Eigen::Matrix2d map = stretch_map(stretch);
+  if (!(std::abs(map(0, 1)) <= 1e-8 * std::min(map(0, 0), map(1, 1))))
+    throw SceneError(
+        fmt::format("sample.stretch.angle = {:g}: a sample that repeats is stretched along x or y", stretch.angle));
+  return {map(0, 0), 1 / map(0, 0)};
 }
 
 DomainScene squeezed(const Domain& domain, const Eigen::Matrix2d& map) {

@@ -11,6 +11,9 @@ namespace lamella {
 /// The affine map that makes a circle an ellipse of the same area, ratio times as long as wide, its long way at `angle`.
 Eigen::Matrix2d stretch_map(const StretchScene& stretch);
 
+/// The same of a stretch along x or along y: the factors of these axes, whose product is 1. Throws SceneError for other angles.
+Vec2 stretch_of_axes(const StretchScene& stretch);
+
 /// The domain that the map takes to `domain`, as polygons in a scene.
 DomainScene squeezed(const Domain& domain, const Eigen::Matrix2d& map);
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <queue>
+#include <set>
 #include <tuple>
 
 namespace lamella {
@@ -49,12 +50,13 @@ class Welder {
       ++welded;
       for (const Index k : tiles_of_[edge.a]) queue_edges(t_.tiles[k], threshold);
     }
+    find_remaining();
     drop_unused_vertices();
     return welded;
   }
 
-  /// Short edges that remain.
-  std::vector<std::string> left_over() const { return left_notes_; }
+  /// Short edges that remain, each once, shortest first; made before the numbers of vertices change.
+  const std::vector<ShortEdge>& left_over() const { return remaining_; }
 
  private:
   /// An edge from vertex a to vertex b as displaced by `image`.
@@ -202,14 +204,15 @@ class Welder {
     return tile_area(t_, tile) > tolerance_;
   }
 
+  /// Edges were refused as often as something beside them changed, and by both their tiles.
+  void find_remaining() {
+    std::set<std::tuple<Index, Index, Image>> seen;
+    for (const Candidate& edge : left_)
+      if (edge.version == version(edge.a, edge.b) && joined(edge) && seen.insert({edge.a, edge.b, edge.image}).second)
+        remaining_.push_back({t_.vertices[edge.a], edge.length});
+  }
+
   void drop_unused_vertices() {
-    for (const Candidate& edge : left_) {
-      if (edge.version != version(edge.a, edge.b) || !joined(edge)) continue;
-      const Vec2 at = t_.vertices[edge.a];
-      left_notes_.push_back(
-          fmt::format("the edge at ({:.6g}, {:.6g}), {:.3g} m long, stays: welding it would bend or remove a tile",
-                      at.x(), at.y(), edge.length));
-    }
     std::vector<Index> id(t_.vertices.size(), -1);
     std::vector<Vec2> kept;
     for (std::size_t v = 0; v < t_.vertices.size(); ++v) {
@@ -229,19 +232,31 @@ class Welder {
   std::vector<long> version_;                 // grows whenever a vertex moves
   std::priority_queue<Candidate> short_edges_;
   std::vector<Candidate> left_;
-  std::vector<std::string> left_notes_;
+  std::vector<ShortEdge> remaining_;
   double tolerance_;  // of a cross product [m2]
 };
 
 }  // namespace
+
+void note_short_edges(std::vector<ShortEdge> left, const std::string& reason, std::vector<std::string>& notes) {
+  if (left.empty()) return;
+  std::stable_sort(left.begin(), left.end(),
+                   [](const ShortEdge& a, const ShortEdge& b) { return a.length < b.length; });
+  constexpr std::size_t kShown = 5;
+  std::string places;
+  for (std::size_t k = 0; k < std::min(kShown, left.size()); ++k)
+    places += fmt::format("{}({:.6g}, {:.6g})", k > 0 ? ", " : "", left[k].at.x(), left[k].at.y());
+  if (left.size() > kShown) places += fmt::format(" and {} more", left.size() - kShown);
+  notes.push_back(fmt::format("{} short edge{}, from {:.3g} m on, as welding would {}: at {}", left.size(),
+                              left.size() > 1 ? "s stay" : " stays", left.front().length, reason, places));
+}
 
 int weld_short_edges(Tessellation& tessellation, double threshold, std::vector<std::string>* notes) {
   Welder welder(tessellation);
   const int welded = welder.weld(threshold);
   if (notes && welded > 0)
     notes->push_back(fmt::format("{} edges of at most {:.3g} m welded to a point", welded, threshold));
-  if (notes)
-    for (const std::string& note : welder.left_over()) notes->push_back(note);
+  if (notes) note_short_edges(welder.left_over(), "bend or remove a tile", *notes);
   return welded;
 }
 

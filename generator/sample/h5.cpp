@@ -102,6 +102,7 @@ bool write_array(hid_t group, const std::string& where, const std::string& name,
   const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   const Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
   if (!space.valid() || !creation.valid() || !access.valid()) return false;
+  H5Pset_obj_track_times(creation.get(), 0);  // no dates: the same arrays are the same bytes
   H5Pset_chunk_cache(access.get(), 0, 0, 1);  // every chunk is written once, so there is nothing to keep
   const Rows rows{data.data(), shape[0], sizeof(T) * static_cast<std::size_t>(columns), sizeof(T)};
   const bool in_chunks = storage == Storage::compressed && data.size() * sizeof(T) > kPlainBytes;
@@ -332,7 +333,9 @@ Node Node::make(const std::filesystem::path& path, const std::filesystem::path& 
   H5Pset_fclose_degree(access.get(), H5F_CLOSE_STRONG);
   // The newest layout guards everything but the values of small arrays by checksums, so that damage is noticed.
   H5Pset_libver_bounds(access.get(), H5F_LIBVER_LATEST, H5F_LIBVER_LATEST);
-  const hid_t id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get());
+  const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+  H5Pset_obj_track_times(creation.get(), 0);
+  const hid_t id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.get(), access.get());
   if (id < 0)
     throw DataError(fmt::format("{} cannot be written: {}", shown.string(), *error ? std::strerror(*error) : reason()));
   return Node(id, shown.string() + ":/", storage, std::move(error));
@@ -370,7 +373,9 @@ void Node::close() {
 }
 
 Node Node::make_group(const std::string& name) {
-  const hid_t id = H5Gcreate2(id_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  const Handle creation(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
+  H5Pset_obj_track_times(creation.get(), 0);
+  const hid_t id = H5Gcreate2(id_, name.c_str(), H5P_DEFAULT, creation.get(), H5P_DEFAULT);
   check_written(id >= 0, name);
   return Node(id, where_ + (where_.back() == '/' ? "" : "/") + name, storage_, error_);
 }

@@ -1,6 +1,7 @@
 // Keys of [sample] that contradict or need each other where a tissue fills a domain, varies, or is drawn out; and bricks.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <initializer_list>
 
 #include "generator/sample/scene_checks.h"
@@ -129,7 +130,13 @@ void check_tissue_sections(const Value& table, const SampleScene& sample, Faults
   if (Section stretch(table, "stretch", faults); stretch) {
     if (!sample.domain && !has("width"))
       stretch.fault("needs width and height, or a domain: it does not follow from the disks what it fills");
-    if (repeats) stretch.fault("squeezes a box to a parallelogram, which does not repeat; remove it, or periodic");
+    if (sample.periodic == "none" && repeats)
+      stretch.fault("squeezes disks whose packing repeats and whose sample does not; give sample.periodic");
+    // sin(2 angle): zero along the axes
+    if (sample.periodic != "none" && !(std::abs(std::sin(2 * sample.stretch->angle)) <= 1e-9))
+      stretch.fault("angle", "is neither 0 nor 90 deg: other stretches squeeze a box that repeats to a parallelogram");
+    if (sample.periodic != "none" && sample.areas && sample.areas->of == "inset")
+      stretch.fault("draws out tiles, not their insets; give sample.areas.of = \"tile\"");
     if (from_file) stretch.fault("contradicts packing.file, whose disks are where they are; keep one of them");
   }
 }

@@ -288,7 +288,7 @@ const std::vector<Row<MixtureScene>>& rows() {
        .member = &S::area_share,
        .unit = "1",
        .range = kPositiveFraction,
-       .sentence = "Of the area of all disks, instead of share.",
+       .sentence = "Of the area of all disks, instead of share; of the cells exactly with [sample.areas].",
        .fallback = "this or share is required"},
       {.key = "group", .member = &S::group, .sentence = "Group whose parameters its cells take."},
   };
@@ -446,7 +446,10 @@ const std::vector<Row<StretchScene>>& rows() {
        .range = between(1, 20),
        .sentence = "Length over width of a cell that would be round.",
        .required = true},
-      {.key = "angle", .member = &S::angle, .unit = "rad", .sentence = "Of the long way, from the x axis."},
+      {.key = "angle",
+       .member = &S::angle,
+       .unit = "rad",
+       .sentence = "Of the long way, from the x axis; 0 or 90 deg where the sample repeats."},
   };
   return list;
 }

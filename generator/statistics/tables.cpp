@@ -16,12 +16,12 @@ std::string cell_table(const Mosaic& mosaic, const MosaicMeasures& measures) {
   auto out = std::back_inserter(text);
   fmt::format_to(out,
                  "cell,group,x [m],y [m],area [m2],perimeter [m],neighbours,layer,circularity,elongation,"
-                 "direction [rad],thickness\n");
+                 "direction [rad],thickness,number\n");
   for (std::size_t c = 0; c < measures.cells.size(); ++c) {
     const CellMeasures& cell = measures.cells[c];
-    fmt::format_to(out, "{},{},{},{},{},{},{},{},{},{},{},{}\n", c, mosaic.cells[c].group, cell.centre.x(),
+    fmt::format_to(out, "{},{},{},{},{},{},{},{},{},{},{},{},{}\n", c, mosaic.cells[c].group, cell.centre.x(),
                    cell.centre.y(), cell.area, cell.perimeter, cell.neighbours, cell.layer, cell.circularity,
-                   cell.elongation, cell.direction, mosaic.cells[c].thickness);
+                   cell.elongation, cell.direction, mosaic.cells[c].thickness, mosaic.cells[c].number);
   }
   return {text.data(), text.size()};
 }

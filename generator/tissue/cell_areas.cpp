@@ -11,17 +11,27 @@
 #include "generator/tissue/domain_tissue.h"
 #include "generator/tissue/inset_areas.h"
 #include "generator/tissue/outlines.h"
+#include "generator/tissue/packed_tiles.h"
 
 namespace lamella {
 namespace {
 
 using Progress = std::function<void(double done, const std::string& what)>;
 
+/// In each part of a mixture by area, shares in proportion to the squares of the radii, which sum to the part's.
+void scale_parts(const Packing& packing, std::vector<double>& shares) {
+  std::vector<double> sum(packing.area_share.size(), 0);
+  for (std::size_t i = 0; i < packing.part.size(); ++i) sum[packing.part[i]] += shares[i];
+  for (std::size_t i = 0; i < packing.part.size(); ++i)
+    shares[i] *= packing.area_share[packing.part[i]] / sum[packing.part[i]];
+}
+
 /// What was asked of each cell: what a file states, or else the square of the disk's radius.
 std::vector<double> shares_of(const Packing& packing, double room, bool whole_tiles, Notes& notes) {
   std::vector<double> shares = packing.target_area;
   if (shares.empty()) {
     for (const Disk& disk : packing.disks) shares.push_back(disk.radius * disk.radius);
+    scale_parts(packing, shares);
     return shares;
   }
   long double sum = 0;
@@ -113,6 +123,14 @@ void note_areas(const std::vector<double>& areas, const CellAreas& exact, const 
 
 }  // namespace
 
+std::vector<Disk> CellAreas::sites() const {
+  const double least = *std::min_element(weights.begin(), weights.end());
+  const double shift = 1e-6 * tessellation.box.area() / static_cast<double>(weights.size()) - least;
+  std::vector<Disk> disks;
+  for (std::size_t i = 0; i < weights.size(); ++i) disks.push_back({centres[i], std::sqrt(weights[i] + shift)});
+  return disks;
+}
+
 CellAreas tessellate_with_areas(const Packing& packing, const AreasScene& scene, const Periodic& periodic,
                                 const std::vector<double>& distance, Notes& notes, const Progress& progress) {
   const bool insets = scene.of == "inset";
@@ -134,8 +152,11 @@ CellAreas tessellate_with_areas(const Packing& packing, const AreasScene& scene,
   }
   result.tessellation =
       tessellate(problem.centres, found.weight, packing.box, {Duplicates::kRefuse, Hidden::kRefuse, periodic});
+  result.centres = std::move(problem.centres);
+  result.weights = std::move(found.weight);
+  refuse_faults(check_powers(result.tessellation, result.centres, result.weights));
   // Measured again, on the tiles that the tissue is made of.
-  const auto areas = cell_areas(result.tessellation, result.distance, static_cast<Index>(problem.centres.size()));
+  const auto areas = cell_areas(result.tessellation, result.distance, static_cast<Index>(result.centres.size()));
   note_areas(areas, result, scene, search, notes);
   return result;
 }
@@ -162,6 +183,9 @@ CellAreas tessellate_with_areas(const Packing& packing, const AreasScene& scene,
   for (const Vec2& centre : problem.centres) sites.push_back({centre, 0});
   result.tessellation = tessellate(problem.centres, found.weight, box_around(domain.loops, sites),
                                    {Duplicates::kRefuse, Hidden::kRefuse, {false, false}});
+  result.centres = std::move(problem.centres);
+  result.weights = found.weight;
+  refuse_faults(check_powers(result.tessellation, result.centres, result.weights));
   note_areas(found.cells.area, result, scene, search, notes);
   return result;
 }

@@ -16,8 +16,13 @@ namespace lamella {
 /// Tiles of prescribed areas. What has the area is the tile, or what the inset leaves of it.
 struct CellAreas {
   Tessellation tessellation;
+  std::vector<Vec2> centres;     // of its sites [m]
+  std::vector<double> weights;   // [m2]
   std::vector<double> shares;    // per site, of the sum of all areas: in proportion to what was asked for
   std::vector<double> distance;  // per site, of the inset [m]; empty: whole tiles
+
+  /// Disks with these tiles: all weights moved by one number, so that each is the square of a radius.
+  std::vector<Disk> sites() const;
 };
 
 /// Tessellates with sites from the packing, weights solved for, and sweeps as asked. `distance`: per disk, by which walls

@@ -165,6 +165,7 @@ DomainTissue tissue_of(const Overlay& o, const Tessellation& t, const Sharing& s
     if (cell.vertex.empty()) continue;
     cell.side.assign(cell.vertex.size(), 0);
     cell.name = fmt::format("site {}", t.tiles[k].site);
+    cell.number = t.tiles[k].site;
     tissue.mosaic.cells.push_back(std::move(cell));
     tissue.boundary.push_back(std::move(boundary));
     tissue.site.push_back(t.tiles[k].site);

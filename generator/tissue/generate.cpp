@@ -8,15 +8,16 @@
 #include <numbers>
 #include <optional>
 
-#include "generator/packing/domain.h"
 #include "generator/packing/laguerre.h"
 #include "generator/packing/packing.h"
+#include "generator/packing/stretch.h"
 #include "generator/packing/variation.h"
 #include "generator/packing/weld.h"
 #include "generator/sample/errors.h"
 #include "generator/sample/scene_place.h"
 #include "generator/tissue/bricks.h"
 #include "generator/tissue/cell_areas.h"
+#include "generator/tissue/check_tiles.h"
 #include "generator/tissue/image_tissue.h"
 #include "generator/tissue/lattice.h"
 #include "generator/tissue/missing_links.h"
@@ -50,17 +51,30 @@ Sample make_tissue(Mosaic& mosaic, const Scene& scene, Notes& notes, Origin& ori
   return sample;
 }
 
+/// What is filled with cells that are round on average, before it is drawn out along its axes.
+Scene squeezed(Scene scene, const Vec2& drawn) {
+  scene.sample.width /= drawn.x();
+  scene.sample.height /= drawn.y();
+  return scene;
+}
+
 Mosaic make_packed_mosaic(const Scene& scene, Notes& notes, const Progress& progress, Origin& origin) {
-  if (scene.sample.domain || scene.sample.stretch) return make_domain_mosaic(scene, notes, progress, origin);
+  const auto& stretch = scene.sample.stretch;
+  if (scene.sample.domain || (stretch && scene.sample.periodic == "none"))
+    return make_domain_mosaic(scene, notes, progress, origin);
   const Periodic periodic = periodic_of(scene.sample);
+  const Box asked{Vec2::Zero(), {scene.sample.width, scene.sample.height}};
+  const Vec2 drawn = stretch ? stretch_of_axes(*stretch) : Vec2::Ones();
+  PositionFactor factor = size_factor(scene.sample, asked);
+  if (factor && stretch) factor = [=, whole = factor](const Vec2& p) { return whole(p.cwiseProduct(drawn)); };
   Packing& packing = origin.packing = make_packing(
-      scene,
+      stretch ? squeezed(scene, drawn) : scene,
       [&](double done, const std::string& what) {
         if (progress) progress(0.7 * done, what);
       },
-      size_factor(scene.sample, {Vec2::Zero(), {scene.sample.width, scene.sample.height}}));
+      factor);
   notes.insert(notes.end(), packing.notes.begin(), packing.notes.end());
-  vary_disks(packing, scene.sample, packing.box, Eigen::Matrix2d::Identity(), notes);
+  vary_disks(packing, scene.sample, stretch ? asked : packing.box, drawn.asDiagonal(), notes);
   if (progress) progress(0.7, "tessellation");
   std::optional<CellAreas> exact;
   if (scene.sample.areas)
@@ -70,7 +84,14 @@ Mosaic make_packed_mosaic(const Scene& scene, Notes& notes, const Progress& prog
                                   });
   Tessellation tessellation =
       exact ? exact->tessellation
-            : tessellate_packing(packing.disks, packing.box, laguerre_options(scene.sample.packing, periodic), notes);
+            : tessellate_packing(packing.disks, packing.box, laguerre_options(scene.sample.packing, periodic), notes,
+                                 packing.number);
+  if (exact) origin.asked = exact->shares;
+  if (!stretch) origin.sites = exact ? exact->sites() : packing.disks;
+  if (stretch) {
+    tessellation.box = asked;
+    for (Vec2& vertex : tessellation.vertices) vertex = vertex.cwiseProduct(drawn);
+  }
   // Cocircular sites leave edges without length, which no wall can be made of: those are welded whatever is asked.
   const double share = std::max(scene.sample.walls.weld, 1e-9);
   origin.welded = weld_short_edges(tessellation, share * mean_edge_length(tessellation), &notes);
@@ -150,11 +171,11 @@ Box enclosing_box(const Sample& sample) {
   return box;
 }
 
-void check(const Sample& sample, const SampleScene& asked) {
-  // A tessellation leaves no gap: where nothing is taken away or added it fills its box, or its domain.
-  const bool fills = asked.kind == "tissue" && !asked.notch && asked.shapes.empty();
-  const double room = !fills ? 0 : asked.domain ? make_domain(*asked.domain).area : sample.box.area();
-  auto violations = check_sample(sample, room);
+void check(const Sample& sample, const SampleScene& asked, const Mosaic& tiles) {
+  const Filled filled = filled_by(asked, sample.box);
+  auto violations = check_sample(sample, asked.shapes.empty() ? filled.area : 0);
+  if (!tiles.cells.empty())
+    for (std::string& fault : check_tiles(tiles, filled)) violations.push_back(std::move(fault));
   if (violations.empty()) return;
   violations.insert(violations.begin(), fmt::format("sample: the {} that the scene asks for is not sound", asked.kind));
   throw SceneError(violations);
@@ -197,7 +218,7 @@ Sample generated(const Scene& scene, Notes& notes, const Progress& progress, Ori
   sample.scene_text = scene.text;
   sample.seed = scene.seed;
   if (progress) progress(0.95, "check");
-  check(sample, asked);
+  check(sample, asked, from.tiles);
   if (progress) progress(1, "done");
   return sample;
 }

@@ -73,8 +73,10 @@ Mosaic make_laguerre_mosaic(LabelImage labels, double pixel, double weld, Notes&
   origin.welded = weld_short_edges(tessellation, std::max(weld, 1e-9) * mean_edge_length(tessellation), &notes);
   Mosaic mosaic = mosaic_of(tessellation);
   std::size_t kept = 0;
-  for (std::size_t t = 0; t < tessellation.tiles.size() && tessellation.tiles[t].site < cells; ++t, ++kept)
-    mosaic.cells[t].name = fmt::format("label {}", labels.number[tessellation.tiles[t].site]);
+  for (std::size_t t = 0; t < tessellation.tiles.size() && tessellation.tiles[t].site < cells; ++t, ++kept) {
+    mosaic.cells[t].number = labels.number[tessellation.tiles[t].site];
+    mosaic.cells[t].name = fmt::format("label {}", mosaic.cells[t].number);
+  }
   mosaic.cells.resize(kept);
   return mosaic;
 }

@@ -172,6 +172,7 @@ Mosaic mosaic_of(const SimplifiedWalls& walls, const LabelImage& labels, double 
     cell.vertex = walls.cells[c].vertex;
     for (const Index beyond : walls.cells[c].beyond) cell.side.push_back(side_of(beyond));
     cell.name = fmt::format("label {}", labels.number[c]);
+    cell.number = labels.number[c];
     mosaic.cells.push_back(std::move(cell));
   }
   return mosaic;

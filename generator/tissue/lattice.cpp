@@ -25,6 +25,7 @@ Mosaic mosaic_of(const Tessellation& tessellation) {
     cell.vertex = tile.vertex;
     cell.image = tile.image;
     cell.name = fmt::format("site {}", tile.site);
+    cell.number = tile.site;
     for (const Index neighbour : tile.neighbour) {
       switch (neighbour) {
         case kLeftSide:

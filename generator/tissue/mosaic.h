@@ -17,7 +17,8 @@ struct MosaicCell {
   std::vector<Image>
       image;  // per vertex, periodic mosaics only: the corner lies at its vertex + displacement(image[k])
   std::string group = "cells";
-  double thickness = 1;  // factor on the wall's thickness, and on its radius [1]
+  double thickness = 1;      // factor on the wall's thickness, and on its radius [1]
+  std::int64_t number = -1;  // of the disk, label or polygon that it is made of, as its file counts; -1: of none
 };
 
 /// Two cells share the edge (u, v) when one has it from u to v and the other from v to u: shared walls are known by

@@ -78,6 +78,8 @@ Mosaic read(const h5::Node& file) {
   const auto names = group.texts("groups");
   const auto group_of = group.ints("group");
   if (group_of.size() + 1 != all.begin.size()) refuse(group, "'group' must have one row per tile");
+  const auto numbers = group.has("number") ? group.longs("number") : std::vector<std::int64_t>{};
+  if (!numbers.empty() && numbers.size() != group_of.size()) refuse(group, "'number' must have one row per tile");
   for (std::size_t t = 0; t + 1 < all.begin.size(); ++t) {
     if (group_of[t] < 0 || group_of[t] >= static_cast<Index>(names.size()))
       refuse(group, fmt::format("'group' of tile {} is {}; there are {} names", t, group_of[t], names.size()));
@@ -85,6 +87,7 @@ Mosaic read(const h5::Node& file) {
     tile.vertex.assign(all.vertex.begin() + all.begin[t], all.vertex.begin() + all.begin[t + 1]);
     tile.side.assign(all.side.begin() + all.begin[t], all.side.begin() + all.begin[t + 1]);
     tile.name = fmt::format("cell {}", t);
+    if (!numbers.empty()) tile.number = numbers[t];
     tile.group = names[group_of[t]];
     for (Index k = all.begin[t]; k < all.begin[t + 1] && !all.image.empty(); ++k)
       tile.image.push_back(
@@ -114,6 +117,10 @@ void write(h5::Node& file, const Mosaic& tiles) {
     if (known == names.end()) names.push_back(tile.group);
   }
   group.write("group", group_of);
+  std::vector<std::int64_t> numbers;
+  for (const MosaicCell& tile : tiles.cells) numbers.push_back(tile.number);
+  if (std::any_of(numbers.begin(), numbers.end(), [](std::int64_t k) { return k >= 0; }))
+    group.write("number", numbers);
   group.write_texts("groups", names);
   group.write_text("periodic", std::string(tiles.periodic[0] ? "x" : "") + (tiles.periodic[1] ? "y" : ""));
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "generator/sample/errors.h"
 
@@ -23,6 +24,13 @@ struct Merged {
   std::vector<Index> node_of;
 };
 
+/// Whether the outline turns away from its cell there: what lies beyond is another cell.
+bool is_reflex(const std::vector<OutlineNode>& nodes, std::size_t k) {
+  const std::size_t count = nodes.size();
+  const Vec2 in = nodes[k].at - nodes[(k + count - 1) % count].at, out = nodes[(k + 1) % count].at - nodes[k].at;
+  return cross(in, out) < -1e-9 * in.norm() * out.norm();
+}
+
 Merged merge_close(const std::vector<OutlineNode>& nodes, double merge) {
   const std::size_t count = nodes.size();
   Merged merged;
@@ -37,17 +45,21 @@ Merged merge_close(const std::vector<OutlineNode>& nodes, double merge) {
     Vec2 sum = Vec2::Zero();
     int summed = 0;
     auto highest = OutlineNode::Kind::fill;
+    bool reflex = false;
     std::uint8_t side = 0;
     const auto point = static_cast<Index>(merged.points.size());
     while (true) {
       const std::size_t k = (start + i) % count;
       const OutlineNode& node = nodes[k];
-      if (node.kind > highest) {
+      // In the middle between a reflex corner and another the outline would reach into what lies beyond.
+      const bool reflex_here = node.kind == OutlineNode::Kind::corner && is_reflex(nodes, k);
+      if (std::pair(node.kind, reflex_here) > std::pair(highest, reflex)) {
         highest = node.kind;
+        reflex = reflex_here;
         sum.setZero();
         summed = 0;
       }
-      if (node.kind == highest) {
+      if (node.kind == highest && reflex_here == reflex) {
         sum += node.at;
         ++summed;
       }

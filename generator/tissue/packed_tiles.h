@@ -1,5 +1,6 @@
 // The tiles of a packing's disks, as [sample.packing] wants them.
 #pragma once
+#include <string>
 #include <vector>
 
 #include "generator/generate.h"
@@ -11,8 +12,12 @@ namespace lamella {
 /// Duplicates and hidden disks are errors, or with packing.duplicates = "keep_first" left out.
 LaguerreOptions laguerre_options(const PackingScene& scene, const Periodic& periodic = {false, false});
 
-/// Tessellates; a note names the disks that have no tile.
+/// Tessellates, and checks that the tiles are those of the disks; a note names the disks that have no tile, by their
+/// `number` where that is given.
 Tessellation tessellate_packing(const std::vector<Disk>& disks, const Box& box, const LaguerreOptions& options,
-                                Notes& notes);
+                                Notes& notes, const std::vector<int>& number = {});
+
+/// Throws SceneError for what the checks of a tessellation have found.
+void refuse_faults(const std::vector<std::string>& faults);
 
 }  // namespace lamella

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -214,6 +215,10 @@ Mosaic share_walls(const std::vector<ImportedCell>& cells, const SampleScene& sc
     cell.side.assign(cell.vertex.size(), 0);
     cell.name = fmt::format("{} ({}:{})", name_of(cells[c]), file,
                             *std::min_element(cells[c].lines.begin(), cells[c].lines.end()));
+    const std::string& label = cells[c].label;
+    if (const auto end = label.data() + label.size();
+        std::from_chars(label.data(), end, cell.number).ptr != end || cell.number < 0)
+      cell.number = -1;  // a word
     mosaic.cells.push_back(std::move(cell));
   }
   if (!faults.empty()) throw SceneError(faults);

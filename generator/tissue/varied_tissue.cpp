@@ -66,12 +66,17 @@ Mosaic make_domain_mosaic(const Scene& scene, Notes& notes, const TissueProgress
   const LaguerreOptions options = laguerre_options(asked.packing);
   Tessellation tiles;
   if (asked.areas) {
-    tiles =
+    CellAreas exact =
         tessellate_with_areas(packing, *asked.areas, squeezed_domain, notes, [&](double done, const std::string& what) {
           if (progress) progress(0.7 + 0.1 * done, what);
-        }).tessellation;
+        });
+    if (!asked.stretch) origin.sites = exact.sites();
+    origin.asked = exact.shares;
+    tiles = std::move(exact.tessellation);
   } else {
-    tiles = tessellate_packing(packing.disks, box_around(squeezed_domain.loops, packing.disks), options, notes);
+    tiles = tessellate_packing(packing.disks, box_around(squeezed_domain.loops, packing.disks), options, notes,
+                               packing.number);
+    if (!asked.stretch) origin.sites = packing.disks;
     const double threshold = std::max(asked.walls.weld, 1e-9) * mean_edge_length(tiles);
     origin.welded = weld_short_edges(tiles, threshold);
     if (origin.welded > 0)
@@ -116,6 +121,9 @@ void take_from_disks(const Packing& packing, const std::vector<Index>& site, Mos
   for (std::size_t c = 0; c < mosaic.cells.size(); ++c) {
     if (!packing.group.empty()) mosaic.cells[c].group = packing.group[site[c]];
     if (!packing.thickness.empty()) mosaic.cells[c].thickness = packing.thickness[site[c]];
+    if (packing.number.empty()) continue;
+    mosaic.cells[c].number = packing.number[site[c]];
+    mosaic.cells[c].name = fmt::format("site {}", packing.number[site[c]]);
   }
 }
 

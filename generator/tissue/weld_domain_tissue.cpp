@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
+#include "generator/packing/weld.h"
 #include "generator/tissue/domain_tissue.h"
 
 namespace lamella {
@@ -49,14 +51,11 @@ class Welder {
   }
 
   void note_left(std::vector<std::string>& notes) const {
-    for (const Short& edge : left_) {
-      const Vec2& at = t_.mosaic.vertices[edge.a];
-      if (edge.boundary >= 0 && t_.lies_on[edge.a] == kCorner && t_.lies_on[edge.b] == kCorner) continue;
-      notes.push_back(fmt::format(
-          "the edge at ({:.6g}, {:.6g}), {:.3g} m long, stays: welding it would move a corner of the domain, "
-          "fold or remove a cell",
-          at.x(), at.y(), edge.length));
-    }
+    std::vector<ShortEdge> left;
+    for (const Short& edge : left_)
+      if (edge.boundary < 0 || t_.lies_on[edge.a] != kCorner || t_.lies_on[edge.b] != kCorner)
+        left.push_back({t_.mosaic.vertices[edge.a], edge.length});
+    note_short_edges(std::move(left), "move a corner of the domain, fold or remove a cell", notes);
   }
 
  private:

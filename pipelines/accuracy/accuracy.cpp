@@ -34,8 +34,8 @@ void judge_estimates(StudyReport& report, const std::vector<EstimatedError>& est
   const double low = *std::min_element(x.begin(), x.end()), high = *std::max_element(x.begin(), x.end());
   chart.curves.push_back(dotted_curve(0, "runs", x, y));
   chart.curves.push_back(line_curve(4, "equal", {low, high}, {low, high}));
-  chart.curves.push_back({{low, high}, {3 * low, 3 * high}, {curve_colour(4), 1, {3, 3}}, "factor 3"});
-  chart.curves.push_back({{low, high}, {low / 3, high / 3}, {curve_colour(4), 1, {3, 3}}, ""});
+  chart.curves.push_back({{low, high}, {3 * low, 3 * high}, {kReferenceColour, 1, {3, 3}}, "factor 3"});
+  chart.curves.push_back({{low, high}, {low / 3, high / 3}, {kReferenceColour, 1, {3, 3}}, ""});
   report.chart("estimates", "Errors that the program states, beside the true ones.", chart);
 }
 

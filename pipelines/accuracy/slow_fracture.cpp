@@ -203,7 +203,7 @@ void draw(StudyReport& report, const std::vector<Judged>& rest, const std::vecto
   const double seconds = rest.front().seconds;
   const Curve reference{{seconds, seconds},
                         {100 * low, 100 * high},
-                        {curve_colour(4), 1, {3, 3}},
+                        {kReferenceColour, 1, {3, 3}},
                         "at rest: one link at a time (error 0)"};
   precision_over_seconds(report, "slow_fracture", "Slow fracture", all, {reference});
 }

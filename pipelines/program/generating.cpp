@@ -2,7 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
+#include <cstdint>
+#include <map>
 #include <optional>
 
 #include "generator/sample/errors.h"
@@ -48,15 +49,14 @@ std::vector<fs::path> export_outlines(const fs::path& out, const Sample& sample)
   return write_cells(out, outlines_of(sample));
 }
 
-/// The disk of every tile, where there is just one for each in the same order.
+/// The site of every tile, where there is just one for each in the same order.
 std::vector<Disk> seeds_of(const Origin& origin) {
   std::vector<Disk> seeds;
-  for (const MosaicCell& tile : origin.tiles.cells) {
-    Index site = -1;
-    if (std::sscanf(tile.name.c_str(), "site %d", &site) != 1) return {};
-    if (site < 0 || site >= static_cast<Index>(origin.packing.disks.size())) return {};
-    seeds.push_back(origin.packing.disks[site]);
-  }
+  if (origin.sites.empty()) return {};
+  std::map<std::int64_t, std::size_t> place;
+  for (std::size_t i = 0; i < origin.packing.number.size(); ++i) place[origin.packing.number[i]] = i;
+  for (const MosaicCell& tile : origin.tiles.cells)
+    seeds.push_back(origin.sites[place.empty() ? static_cast<std::size_t>(tile.number) : place.at(tile.number)]);
   return seeds;
 }
 

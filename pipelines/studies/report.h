@@ -75,8 +75,10 @@ class StudyReport {
   std::vector<ReportTable> tables_;
 };
 
-/// Colour of the k-th curve of a chart, told apart by people who do not see all colours.
+/// Colour of the k-th curve of a chart, told apart by people who do not see all colours; the twelfth is followed by the first again.
 Colour curve_colour(int k);
+/// Of what curves are compared with: no curve has it.
+inline constexpr Colour kReferenceColour{0, 0, 0};
 /// A curve in that colour.
 Curve line_curve(int k, const std::string& label, std::vector<double> x, std::vector<double> y);
 /// Dots in that colour: what was computed, beside lines that are exact.

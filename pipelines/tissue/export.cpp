@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <limits>
 
 #include "generator/sample/errors.h"
 #include "generator/statistics/tables.h"
@@ -34,7 +36,7 @@ Mesh mesh_of(const Mosaic& mosaic) {
   const MosaicMeasures measures = measure(mosaic);
   Mesh mesh;
   mesh.points = plain.vertices;
-  std::vector<int> cell, neighbours, layer, group;
+  std::vector<int> cell, number, neighbours, layer, group;
   std::vector<float> area, perimeter, circularity, elongation;
   std::vector<std::string> groups;
   for (std::size_t c = 0; c < plain.cells.size(); ++c) {
@@ -42,6 +44,8 @@ Mesh mesh_of(const Mosaic& mosaic) {
     mesh.end_cell();
     const CellMeasures& of = measures.cells[c];
     cell.push_back(static_cast<int>(c));
+    const std::int64_t of_file = mosaic.cells[c].number;
+    number.push_back(of_file <= std::numeric_limits<int>::max() ? static_cast<int>(of_file) : -1);
     neighbours.push_back(of.neighbours);
     layer.push_back(of.layer);
     const auto known = std::find(groups.begin(), groups.end(), mosaic.cells[c].group);
@@ -52,9 +56,15 @@ Mesh mesh_of(const Mosaic& mosaic) {
     circularity.push_back(static_cast<float>(of.circularity));
     elongation.push_back(static_cast<float>(of.elongation));
   }
-  mesh.cell_data = {
-      {"cell", 1, cell}, {"group", 1, group},         {"neighbours", 1, neighbours},   {"layer", 1, layer},
-      {"area", 1, area}, {"perimeter", 1, perimeter}, {"circularity", 1, circularity}, {"elongation", 1, elongation}};
+  mesh.cell_data = {{"cell", 1, cell},
+                    {"number", 1, number},
+                    {"group", 1, group},
+                    {"neighbours", 1, neighbours},
+                    {"layer", 1, layer},
+                    {"area", 1, area},
+                    {"perimeter", 1, perimeter},
+                    {"circularity", 1, circularity},
+                    {"elongation", 1, elongation}};
   return mesh;
 }
 

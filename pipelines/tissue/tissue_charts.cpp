@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "postproc/drawing/chart.h"
 
@@ -42,7 +43,8 @@ Curve steps(const Histogram& h, const Colour& colour, const std::string& label) 
 
 }  // namespace
 
-ChartFiles draw_areas(const std::filesystem::path& stem, const MosaicStatistics& s, const std::vector<Disk>& disks) {
+ChartFiles draw_areas(const std::filesystem::path& stem, const MosaicStatistics& s, const std::vector<double>& asked,
+                      const std::string& what) {
   const Histogram& h = s.area_histogram;
   Chart chart{.title = "Areas", .x_label = "area over mean area", .y_label = "density of probability"};
   Curve tiles{{}, {}, {kBars, 1, {}}, fmt::format("{} tiles", s.cells), CurveKind::kBars};
@@ -51,14 +53,13 @@ ChartFiles draw_areas(const std::filesystem::path& stem, const MosaicStatistics&
     tiles.y.push_back(h.density[k]);
   }
   chart.curves.push_back(tiles);
-  if (!disks.empty()) {
-    double mean = 0;
-    for (const Disk& disk : disks) mean += disk.radius * disk.radius / static_cast<double>(disks.size());
+  if (!asked.empty()) {
+    const double mean = std::accumulate(asked.begin(), asked.end(), 0.0) / static_cast<double>(asked.size());
     std::vector<double> relative;
-    for (const Disk& disk : disks) relative.push_back(disk.radius * disk.radius / mean);
-    const Histogram asked = histogram(relative, h.low, h.low + h.width * static_cast<double>(h.density.size()),
-                                      static_cast<int>(h.density.size()));
-    chart.curves.push_back(steps(asked, kFit, "disks"));
+    for (const double area : asked) relative.push_back(area / mean);
+    const Histogram of_asked = histogram(relative, h.low, h.low + h.width * static_cast<double>(h.density.size()),
+                                         static_cast<int>(h.density.size()));
+    chart.curves.push_back(steps(of_asked, kFit, what));
   }
   return draw(stem, chart);
 }

@@ -58,6 +58,14 @@ void add_packing(Summary& summary, const Packing& packing) {
   add_moments(summary, "packing", "radius", moments(radii), "m", "radius of a disk");
 }
 
+/// What areas were asked for, in proportion: by [sample.areas], or by disks.
+std::vector<double> asked_of(const Origin& origin) {
+  std::vector<double> asked = origin.asked;
+  if (asked.empty())
+    for (const Disk& disk : origin.packing.disks) asked.push_back(disk.radius * disk.radius);
+  return asked;
+}
+
 void add_shapes(Summary& summary, const MosaicStatistics& s) {
   add_moments(summary, "sizes and shapes", "area", s.all_areas, "m2", "area of a tile, those at the boundary too");
   summary.add("sizes and shapes", {"skew_area", s.all_areas.skew, "1", "third central moment over variance^(3/2)"});
@@ -169,11 +177,18 @@ std::vector<fs::path> write_tissue_report(const fs::path& folder, const Scene& s
     const MosaicMeasures measures = measure(origin.tiles);
     s = statistics(measures);
     add_shapes(summary, s);
+    const std::vector<double> asked = asked_of(origin);
+    if (!asked.empty())
+      summary.add("sizes and shapes", {"cv_area_asked", moments(asked).cv(), "1",
+                                       "standard deviation over mean of the areas of the disks, or of those that "
+                                       "sample.areas prescribes"});
     if (s.counted > 0) add_topology(summary, s);
     add_picture(draw_neighbours_and_areas(folder / "tissue", origin.tiles, measures),
                 "The tiles, before walls are inset: how many neighbours each has, and how large it is.");
-    add_picture(draw_areas(folder / "areas", s, origin.packing.disks),
-                "Areas of all tiles over their mean, and of the disks that the tiles were made from.");
+    add_picture(draw_areas(folder / "areas", s, asked, origin.asked.empty() ? "disks" : "asked"),
+                origin.asked.empty()
+                    ? "Areas of all tiles over their mean, and of the disks that the tiles were made from."
+                    : "Areas of all tiles over their mean, and those that sample.areas prescribes.");
     if (s.counted > 0) {
       add_picture(
           draw_neighbour_counts(folder / "neighbours", s),

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "tests/program/program.h"
 #include "tests/support/temporary_folder.h"
@@ -29,7 +30,7 @@ TEST_F(exporting, writes_each_format_by_its_ending) {
   const Outcome made = lamella_program(command);
   ASSERT_EQ(made.status, 0) << made.said;
   EXPECT_EQ(made.said, "");
-  EXPECT_THAT(text("made_cells.csv"), StartsWith("cell,group,x [m]"));
+  EXPECT_THAT(text("made_cells.csv"), AllOf(StartsWith("cell,group,x [m]"), HasSubstr(",number\n")));
   EXPECT_THAT(text("made_walls.csv"), StartsWith("cell_a,cell_b"));
   EXPECT_THAT(text("made_vertices.csv"), StartsWith("vertex,x [m]"));
   EXPECT_THAT(text("made.tess"), StartsWith("***tess\n **format\n   3.4"));
@@ -60,6 +61,68 @@ TEST_F(exporting, and_reading_again_is_the_same_tissue) {
   ASSERT_EQ(lamella_program("export " + at("a.h5") + " --of outlines -q -o " + at("a.off")).said, "");
   ASSERT_EQ(lamella_program("export " + at("b.h5") + " --of outlines -q -o " + at("b.off")).said, "");
   EXPECT_EQ(text("b.off"), text("a.off")) << "the same shells, to the last bit";
+}
+
+/// The last column of a table.
+std::vector<long> last_column(const std::string& table) {
+  std::vector<long> column;
+  std::istringstream lines(table);
+  std::string line;
+  std::getline(lines, line);
+  while (std::getline(lines, line)) column.push_back(std::stol(line.substr(line.rfind(',') + 1)));
+  return column;
+}
+
+TEST_F(exporting, names_cells_by_the_disks_they_are_made_of_though_some_are_left_out) {
+  // Disks from right to left: cells are ordered the other way. The second is there twice, the fifth is hidden by the fourth.
+  write_file(folder / "disks.csv",
+             "x,y,r\n0.9,0.5,0.1\n0.7,0.5,0.1\n0.7,0.5,0.1\n0.4,0.5,0.1\n0.41,0.5,0.01\n0.1,0.5,0.1\n");
+  write_file(folder / "disks.toml",
+             "[sample]\nkind = \"tissue\"\nwidth = 1\nheight = 1\nwalls.segments = 4\n"
+             "packing = { file = \"disks.csv\", duplicates = \"keep_first\" }\n[cells]\nthickness = 1e-3\n");
+  const Outcome made = lamella_program("generate " + at("disks.toml") + " -o " + at("s.h5") + " --export " +
+                                       at("made.csv") + " --export " + at("made.tess"));
+  ASSERT_EQ(made.status, 0) << made.said;
+  EXPECT_THAT(made.said, AllOf(HasSubstr("occur earlier in the file: 2 (line 4)"), HasSubstr("have no cell: site 4")));
+  EXPECT_THAT(last_column(text("made_cells.csv")), testing::ElementsAre(5, 3, 1, 0));
+  ASSERT_EQ(lamella_program("export " + at("s.h5") + " -q -o " + at("again.csv")).said, "");
+  EXPECT_EQ(text("again_cells.csv"), text("made_cells.csv"));
+  EXPECT_THAT(text("made.tess"), HasSubstr("*seed\n   1 0.1 0.5 0 0.1\n   2 0.4 0.5 0 0.1\n"));
+}
+
+TEST_F(exporting, seeds_of_cells_with_exact_areas_have_these_areas) {
+  const std::string cells = "walls = { segments = 6, weld = 0 }\n[cells]\nthickness = 1e-4\n";
+  for (const std::string periodic : {"none", "xy"}) {
+    write_file(folder / "exact.toml", "[sample]\nkind = \"tissue\"\nwidth = 1\nheight = 1\nperiodic = \"" + periodic +
+                                          "\"\npacking = { count = 60, fraction = 0.7 }\nareas = { sweeps = 3 }\n" +
+                                          cells);
+    write_file(folder / "again.toml", "[sample]\nkind = \"tissue\"\nwidth = 1\nheight = 1\nperiodic = \"" + periodic +
+                                          "\"\npacking.file = \"exact.tess\"\n" + cells);
+    ASSERT_EQ(lamella_program("generate " + at("exact.toml") + " -q -o " + at("exact.h5") + " --export " +
+                              at("exact.tess") + " --export " + at("exact.csv"))
+                  .said,
+              "");
+    ASSERT_EQ(
+        lamella_program("generate " + at("again.toml") + " -q -o " + at("again.h5") + " --export " + at("again.csv"))
+            .said,
+        "");
+    const auto area = [&](const std::string& name) {
+      std::vector<double> column;
+      std::istringstream lines(text(name));
+      std::string line, cell;
+      std::getline(lines, line);
+      while (std::getline(lines, line)) {
+        std::istringstream row(line);
+        for (int k = 0; k < 5; ++k) std::getline(row, cell, ',');
+        column.push_back(std::stod(cell));
+      }
+      return column;
+    };
+    const auto exact = area("exact_cells.csv"), again = area("again_cells.csv");
+    ASSERT_EQ(exact.size(), 60u);
+    ASSERT_EQ(again.size(), 60u);
+    for (std::size_t k = 0; k < 60; ++k) EXPECT_NEAR(again[k] / exact[k], 1, 1e-11) << periodic << " " << k;
+  }
 }
 
 TEST_F(exporting, refuses_what_it_cannot_write_before_any_work) {

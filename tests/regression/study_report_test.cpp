@@ -63,6 +63,16 @@ TEST(StudyReport, a_chart_is_drawn_into_the_folder_and_linked) {
   EXPECT_THAT(report.markdown("pictures/", 2), HasSubstr("![errors](pictures/errors.png)"));
 }
 
+TEST(StudyReport, twelve_curves_and_what_they_are_compared_with_have_colours_of_their_own) {
+  const auto differ = [](const Colour& a, const Colour& b) {
+    return std::abs(a.red - b.red) + std::abs(a.green - b.green) + std::abs(a.blue - b.blue);
+  };
+  for (int k = 0; k < 12; ++k) {
+    EXPECT_GT(differ(curve_colour(k), kReferenceColour), 0.3) << k;
+    for (int j = 0; j < k; ++j) EXPECT_GT(differ(curve_colour(k), curve_colour(j)), 0.2) << j << " " << k;
+  }
+}
+
 TEST(ObservedOrder, of_a_power_law_is_its_exponent) {
   const Order order = observed_order({10, 20, 40}, {3e-2, 7.5e-3, 1.875e-3});
   EXPECT_NEAR(order.order, 2, 1e-12);

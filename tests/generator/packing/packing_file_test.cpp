@@ -63,6 +63,7 @@ TEST(packing_file, of_disks_at_one_place_the_first_may_be_kept) {
   ASSERT_THAT(torus.disks, SizeIs(3));
   EXPECT_EQ(torus.disks[2].radius, 0.5);
   EXPECT_THAT(torus.notes, ElementsAre(HasSubstr(": 2 as 0, 3 as 1, 5 as 4")));
+  EXPECT_THAT(torus.number, ElementsAre(0, 1, 4));  // those that stay keep theirs
   const std::size_t notes = torus.notes.size();
   keep_first_at_each_place(torus);
   EXPECT_EQ(torus.notes.size(), notes);
@@ -120,9 +121,14 @@ TEST(packing_file, a_file_of_another_kind_is_not_listed_line_by_line) {
 }
 
 TEST(packing_file, later_duplicates_are_left_out_on_request_and_noted) {
-  const Packing packing = read_packing(file_of("1,2,0.5\n3,2,0.5\n1,2,0.5\n"), nullptr, "keep_first");
-  EXPECT_THAT(packing.disks, SizeIs(2));
-  EXPECT_THAT(packing.notes, ElementsAre(HasSubstr("1 disks left out")));
+  Packing packing = read_packing(file_of("x,y,r\n1,2,0.5\n1,2,0.5\n3,2,0.5\n3,2,0.4\n"), nullptr, "keep_first");
+  EXPECT_THAT(packing.disks, SizeIs(3));
+  EXPECT_THAT(packing.notes, ElementsAre(HasSubstr("1 disks left out that occur earlier in the file: 1 (line 3); ")));
+  EXPECT_THAT(packing.number, ElementsAre(0, 2, 3));  // those that stay keep theirs
+  keep_first_at_each_place(packing);
+  EXPECT_THAT(packing.notes.back(), HasSubstr(": 3 as 2"));
+  EXPECT_THAT(packing.number, ElementsAre(0, 2));
+  EXPECT_THAT(read_packing(file_of("1,2,0.5\n3,2,0.5\n")).number, IsEmpty());
 }
 
 TEST(packing_file, a_file_that_cannot_be_read_or_written_is_a_data_error) {

@@ -140,6 +140,23 @@ TEST(weld, corners_of_the_box_stay_and_keep_their_tiles) {
   EXPECT_FALSE(notes.empty());
 }
 
+TEST(weld, one_note_counts_every_edge_that_stays_short_once) {
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    Tessellation t = tessellate(random_disks(200, 0.03, seed), kUnit, {.hidden = Hidden::kReport});
+    std::vector<std::string> notes;
+    const double threshold = mean_edge_length(t);
+    weld_short_edges(t, threshold, &notes);
+    std::set<std::pair<Index, Index>> left;
+    for (const Tile& tile : t.tiles)
+      for (std::size_t k = 0; k < tile.vertex.size(); ++k)
+        if (edge_length(t, tile, k) <= threshold)
+          left.insert(std::minmax(tile.vertex[k], tile.vertex[(k + 1) % tile.vertex.size()]));
+    ASSERT_GT(left.size(), 5u) << "seed " << seed;
+    ASSERT_THAT(notes, SizeIs(2));  // what was welded, and what was not
+    EXPECT_EQ(std::stoul(notes[1]), left.size()) << notes[1];
+  }
+}
+
 TEST(weld, even_a_threshold_of_the_size_of_a_tile_leaves_a_tessellation) {
   for (unsigned seed = 0; seed < 10; ++seed) {
     Tessellation t = tessellate(random_disks(200, 0.03, seed), kUnit, {.hidden = Hidden::kReport});

@@ -210,6 +210,48 @@ TEST(CellAreas, of_insets_on_a_torus_with_walls_of_different_thickness) {
             1 + 2e-9);
 }
 
+TEST(CellAreas, of_a_mixture_by_area_sum_to_the_shares_of_its_parts) {
+  // Two parts of one group, so that parts are told apart by more than their groups. Few large cells: their number alone is off by much.
+  for (const char* of : {"tile", "inset"}) {
+    SCOPED_TRACE(of);
+    Scene scene = tissue(200);
+    scene.stages.front().cells["vessels"] = scene.stages.front().cells["cells"];
+    scene.sample.walls.weld = 0;
+    scene.sample.areas->of = of;
+    scene.sample.areas->sweeps = 2;
+    scene.sample.sizes.distribution = "mixture";
+    const std::vector<double> shares{0.4, 0.25, 0.35}, means{1, 1.5, 4}, cvs{0.3, 0.1, 0.3};
+    for (std::size_t k = 0; k < 3; ++k) {
+      MixtureScene part;
+      part.mean = means[k];
+      part.cv = cvs[k];
+      part.area_share = shares[k];
+      part.group = k == 2 ? "vessels" : "cells";
+      scene.sample.sizes.mixture.push_back(part);
+    }
+    Notes notes;
+    Origin origin;
+    const Sample sample = generate(scene, notes, {}, &origin);
+    std::vector<double> area(3, 0), ratio(3, 0);
+    double all = 0, spread = 0;
+    for (Index c = 0; c < sample.cells(); ++c) {
+      const auto site = std::stoul(origin.tiles.cells[c].name.substr(5));
+      const int part = origin.packing.part[site];
+      EXPECT_EQ(origin.tiles.cells[c].group == "vessels", part == 2);
+      const double own = std::string(of) == "tile"
+                             ? sample.tile_area[c]
+                             : inset_area(polygon_of(origin.tiles, origin.tiles.cells[c]), sample.radius[c]);
+      area[part] += own, all += own;
+      const double radius = origin.packing.disks[site].radius, found = own / (radius * radius);
+      if (ratio[part] == 0) ratio[part] = found;
+      spread = std::max(spread, std::abs(found / ratio[part] - 1));
+    }
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(area[k] / all, shares[k], 1e-9) << k;
+    EXPECT_LT(spread, 3e-9);  // within a part, in proportion to the disks
+    EXPECT_GT(std::abs(ratio[2] / ratio[0] - 1), 1e-4);
+  }
+}
+
 TEST(CellAreas, that_a_file_states_take_the_place_of_the_disks) {
   Packing packing;
   packing.box.hi = {1, 1};

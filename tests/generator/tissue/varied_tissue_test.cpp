@@ -287,6 +287,40 @@ TEST(VariedTissue, is_drawn_out_by_the_ratio_and_along_the_angle_that_are_asked)
     }
 }
 
+/// Areas of the tiles over the squares of the radii of their disks, largest over smallest: 1 when they are in proportion.
+double spread_of_shares(const Sample& sample, const Origin& origin) {
+  double least = 1e300, most = 0;
+  for (Index c = 0; c < sample.cells(); ++c) {
+    const double radius = disk_of(origin, c).radius, share = sample.tile_area[c] / (radius * radius);
+    least = std::min(least, share), most = std::max(most, share);
+  }
+  return most / least;
+}
+
+TEST(VariedTissue, that_repeats_is_drawn_out_along_its_axes_and_goes_on_repeating) {
+  for (const std::string periodic : {"x", "y", "xy"})
+    for (const double degrees : {0.0, 90.0})
+      for (const bool exact : {false, true}) {
+        SCOPED_TRACE(testing::Message() << periodic << " " << degrees << " " << exact);
+        Scene scene = in_box(600, 30, 20);
+        scene.sample.periodic = periodic;
+        scene.sample.walls.weld = 0;
+        scene.sample.stretch = StretchScene{.ratio = 2, .angle = degrees * std::numbers::pi / 180};
+        if (exact) scene.sample.areas = AreasScene{};
+        Notes notes;
+        Origin origin;
+        const Sample sample = generate(scene, notes, {}, &origin);
+        EXPECT_EQ(sample.box.hi, Vec2(30, 20));
+        EXPECT_NEAR(sum_of(sample.tile_area), 600, 1e-9);
+        const Eigen::Matrix2d inertia = mean_inertia(origin.tiles);
+        const double along = degrees == 0 ? inertia(0, 0) / inertia(1, 1) : inertia(1, 1) / inertia(0, 0);
+        EXPECT_NEAR(std::sqrt(along), 2, 0.1);
+        if (exact) {
+          EXPECT_LT(spread_of_shares(sample, origin), 1 + 3e-9);
+        }
+      }
+}
+
 TEST(VariedTissue, drawn_out_in_a_box_is_sound_and_meets_all_four_sides) {
   Scene scene = in_box(200, 20, 10);
   scene.sample.stretch = StretchScene{.ratio = 2.5, .angle = 0.6};
@@ -320,16 +354,6 @@ TEST(VariedTissue, of_bricks_comes_through_the_front_door) {
   EXPECT_THAT(check_sample(sample), IsEmpty());
   EXPECT_EQ(sample.cells(), 22);
   EXPECT_NEAR(sum_of(sample.tile_area), 60, 1e-12);
-}
-
-/// Areas of the tiles over the squares of the radii of their disks, largest over smallest: 1 when they are in proportion.
-double spread_of_shares(const Sample& sample, const Origin& origin) {
-  double least = 1e300, most = 0;
-  for (Index c = 0; c < sample.cells(); ++c) {
-    const double radius = disk_of(origin, c).radius, share = sample.tile_area[c] / (radius * radius);
-    least = std::min(least, share), most = std::max(most, share);
-  }
-  return most / least;
 }
 
 TEST(VariedTissue, has_exact_areas_in_domains_and_when_drawn_out) {

@@ -239,6 +239,21 @@ TEST(Walls, keep_a_corner_beyond_a_quarter_spacing_and_merge_a_nearer_one) {
   }
 }
 
+TEST(Walls, of_concave_cells_do_not_cross_where_a_short_edge_beside_a_reflex_corner_is_merged) {
+  // The first cell has a reflex corner at (23, 44) and a convex one 1 above: closer than a quarter of most spacings here, and far
+  // apart beside the inset of 0.1. The second cell lies beyond the edge to (27, 38).
+  Mosaic mosaic;
+  mosaic.vertices = {{23, 44}, {23, 45}, {21, 44}, {5, 20}, {21, 4}, {27, 38}, {49, 25}, {78, 42}, {75, 48}};
+  mosaic.box = {Vec2(0, 0), Vec2(80, 50)};
+  mosaic.cells = {{{0, 1, 2, 3, 4, 5}, {0, 0, 0, 0, 0, 0}, "first", {}},
+                  {{7, 8, 0, 5, 6}, {0, 0, 0, 0, 0}, "second", {}}};
+  for (double spacing = 3.5; spacing < 12; spacing += 0.25) {
+    const Sample sample = make(mosaic, spaced(spacing), 0.1);
+    EXPECT_EQ(sample.walls.size(), 1u);
+    EXPECT_THAT(check_sample(sample), IsEmpty()) << spacing;
+  }
+}
+
 TEST(Walls, refuse_cells_that_vanish_and_name_them) {
   Notes notes;
   try {

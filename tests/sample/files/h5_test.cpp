@@ -63,6 +63,25 @@ TEST_F(H5, arrays_of_every_type_come_back_bit_by_bit) {
   EXPECT_EQ(group.columns("ints"), 2);
 }
 
+TEST_F(H5, files_hold_no_dates_so_that_the_same_content_is_the_same_bytes) {
+  {
+    auto file = h5::Node::create(path_);
+    file.write("small", std::vector<double>{1});
+    auto group = file.make_group("group");
+    group.write("large", std::vector<double>(300'000, 1.0));
+    group.close();
+    file.close();
+  }
+  const hid_t file = H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  ASSERT_GE(file, 0);
+  for (const char* name : {"/", "/small", "/group", "/group/large"}) {
+    H5O_info_t info{};
+    ASSERT_GE(H5Oget_info_by_name(file, name, &info, H5P_DEFAULT), 0) << name;
+    for (const auto date : {info.atime, info.mtime, info.ctime, info.btime}) EXPECT_EQ(date, 0) << name;
+  }
+  H5Fclose(file);
+}
+
 TEST_F(H5, attributes_come_back_whatever_their_length) {
   const std::string scene(1'000'000, 'x');
   {

@@ -122,7 +122,12 @@ TEST(tissue_faults, a_stretch_is_no_ratio_or_repeats) {
   EXPECT_THAT(faults(boxed("stretch.angle = 1\n")), Contains(HasSubstr("sample.stretch.ratio: missing")));
   EXPECT_THAT(faults(boxed("stretch.ratio = 0\n")), Contains(HasSubstr("sample.stretch.ratio")));
   EXPECT_THAT(faults(boxed("stretch.ratio = 2\npacking.boundary = \"periodic\"\n")),
-              ElementsAre(HasSubstr("sample.stretch: squeezes a box to a parallelogram")));
+              ElementsAre(HasSubstr("sample.stretch: squeezes disks whose packing repeats")));
+  EXPECT_THAT(faults(boxed("stretch = { ratio = 2, angle = \"45 deg\" }\nperiodic = \"xy\"\n")),
+              ElementsAre(HasSubstr("sample.stretch.angle: is neither 0 nor 90 deg")));
+  EXPECT_THAT(faults(boxed("stretch = { ratio = 2, angle = \"90 deg\" }\nperiodic = \"xy\"\n")), ElementsAre());
+  EXPECT_THAT(faults(boxed("stretch.ratio = 2\nperiodic = \"x\"\nareas.of = \"inset\"\n")),
+              ElementsAre(HasSubstr("sample.stretch: draws out tiles")));
 }
 
 TEST(tissue_faults, sections_of_a_tissue_do_not_belong_to_other_kinds) {
