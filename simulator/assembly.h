@@ -48,9 +48,6 @@ class StiffnessMatrix final : public StiffnessSink {
   bool reassemble(const std::vector<std::uint8_t>& cells, const std::function<void(StiffnessSink&)>& visit);
   void add(Index i, Index j, const Eigen::Matrix2d& block) override;
   bool begin_elements(Index cell) override;
-  bool convex() const override { return convex_; }
-  /// Of the next `assemble`: see StiffnessSink.
-  void set_convex(bool convex) { convex_ = convex; }
   /// What is added to the diagonal stays until all is assembled.
   void add_to_diagonal(int row, double value) { values_[column_begin_[row]] += value; }
   /// Rows in which the last `reassemble` may have changed something, the diagonal included; some of them more than once.
@@ -87,7 +84,6 @@ class StiffnessMatrix final : public StiffnessSink {
   Added* record_ = nullptr;                            // of the present elements' cell
   const std::vector<std::uint8_t>* wanted_ = nullptr;  // of `reassemble`
   std::vector<int> changed_;
-  bool convex_ = false;
 };
 
 /// d2W / dx2 of all terms together over the free components [N/m].

@@ -172,7 +172,8 @@ std::string StaticStage::run(TrajectoryWriter& writer, const SimulateOptions& op
     facts.timed_steps += step_ - first_step_;
     const SolverCost& c = facts.static_cost = stepper_->solver().cost();
     const std::string line = fmt::format(
-        "{} equilibria by {} iterations: {} force evaluations, {} solutions, {} factorisations and {} in part, {} links taken out of "
+        "{} equilibria by {} iterations: {} force evaluations, {} solutions, {} factorisations and {} in part, {} "
+        "links taken out of "
         "a factor",
         c.searches, c.iterations, c.forces, c.solves, c.factorizations, c.partial_factorizations, c.updates);
     writer.set_provenance(prefix() + "solver_cost", line);

@@ -52,8 +52,8 @@ void report(const RunFacts& facts, const fs::path& trajectory, Progress& progres
     throw Interrupted(fmt::format("interrupted; what was computed is in {}; go on with the same command and --resume",
                                   trajectory.string()));
   if (const SolverCost& cost = facts.static_cost; cost.searches > 0)
-    progress.say(fmt::format("  {}; {} equilibria by {} iterations, with {} factorisations and {} in part", facts.ended, cost.searches,
-                             cost.iterations, cost.factorizations, cost.partial_factorizations));
+    progress.say(fmt::format("  {}; {} equilibria by {} iterations, with {} factorisations and {} in part", facts.ended,
+                             cost.searches, cost.iterations, cost.factorizations, cost.partial_factorizations));
   else
     progress.say(fmt::format("  {}; {} steps, {:.3g} node-steps/s", facts.ended, facts.steps, facts.node_steps));
 }

@@ -6,14 +6,14 @@
 namespace lamella {
 
 struct Supernode {
-  int first = 0, end = 0;                    // columns of L
-  int parent = -1;                           // supernode of the first row below; -1: a root
-  int size = 0;                              // rows of L: its own columns, and `rows` below them
-  const int* rows = nullptr;                 // below, ascending. Shape (below())
-  const int* place_in_parent = nullptr;      // of each of these rows among the parent's rows. Shape (below())
-  int first_child = -1, next_sibling = -1;   // supernodes; -1: none
-  std::size_t share = 0;                     // where starts what it subtracts from its parent: a lower triangle, shape (below(), below())
-  std::size_t values = 0;                    // where its block of L starts; shape (width(), size), column by column
+  int first = 0, end = 0;                   // columns of L
+  int parent = -1;                          // supernode of the first row below; -1: a root
+  int size = 0;                             // rows of L: its own columns, and `rows` below them
+  const int* rows = nullptr;                // below, ascending. Shape (below())
+  const int* place_in_parent = nullptr;     // of each of these rows among the parent's rows. Shape (below())
+  int first_child = -1, next_sibling = -1;  // supernodes; -1: none
+  std::size_t share = 0;   // where starts what it subtracts from its parent: a lower triangle, shape (below(), below())
+  std::size_t values = 0;  // where its block of L starts; shape (width(), size), column by column
   std::size_t entries = 0, entries_end = 0;  // of K that are assembled here: range of `source` and `target`
 
   int width() const { return end - first; }

@@ -249,7 +249,7 @@ bool EquilibriumSolver::relax(Field& x, double tolerance) {
     }
     ++cost_.iterations;
     if (!factored_) {
-      refactor(x, true), since_factor = 0, first = before;
+      refactor(x), since_factor = 0, first = before;
       if (!factored_ || measure(f) <= tolerance) break;
     }
     Eigen::VectorXd step = direction(f);

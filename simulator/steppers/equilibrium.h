@@ -73,14 +73,14 @@ class EquilibriumSolver {
   Vec2 from_anchor(const Field& x, std::size_t node) const;
   void couple_anchors(StiffnessSink& sink) const;
   void assemble(const Field& x);
-  void refactor(const Field& x, bool convex = false);
+  void refactor(const Field& x);
   /// The same for the cells alone that have turned or stretched since their part was made, where that is less work. Returns whether there is a
   /// new factor; a failed try may leave none.
   bool refactor_turned(const Field& x);
   std::vector<std::uint8_t> turned_cells(const Field& x) const;
   bool holds_lost(const Eigen::VectorXd& step);
   /// Of a rest at which the factor was just made: a larger shift than rounding asks for is one over a saddle.
-  bool is_minimum() const { return !stiffness_.convex() && shift_ <= 1e-9; }
+  bool is_minimum() const { return shift_ <= 1e-9; }
   bool rush(Field& x, double tolerance);
   bool leave_saddle(Field& x, double height);
   Eigen::VectorXd tangent_solution(const Eigen::VectorXd& f);
@@ -102,12 +102,12 @@ class EquilibriumSolver {
   bool barriers_ =
       false;  // links soften: there is more than one minimum, and a search goes to none that lies higher than its start
   Field reached_;
-  Field factor_x_;  // of the nodes of each cell: where its part of the factor was made
+  Field factor_x_;         // of the nodes of each cell: where its part of the factor was made
   double largest_ = 0;     // entry on its diagonal
   Eigen::VectorXd loose_;  // shift of each row beside shift_, where next to nothing holds it
   std::vector<Index> cell_of_;
   std::vector<std::uint8_t> dropped_;  // per cell: links of it have been taken out of the factor since it was made
-  double shift_ = 0;    // of the last factor, over the largest diagonal
+  double shift_ = 0;                   // of the last factor, over the largest diagonal
   double scale_ = 0, residual_ = 0;
   double length_ = 0;    // mean segment [m]
   double rounding_ = 0;  // force below which nothing can be told [N]

@@ -58,26 +58,17 @@ void EquilibriumSolver::assemble(const Field& x) {
   analyzed_ = true;
 }
 
-void EquilibriumSolver::refactor(const Field& x, bool convex) {
-  const auto try_with = [&](double shift) {
-    shift_ = shift;
-    ++cost_.factorizations;
-    factored_ = factor_.factorize(stiffness_.values(), shift_ * largest_);
-    return factored_;
-  };
-  stiffness_.set_convex(false);
+void EquilibriumSolver::refactor(const Field& x) {
   assemble(x);
   const auto [left, right] = std::minmax_element(x.x.begin(), x.x.end());
   const auto [low, high] = std::minmax_element(x.y.begin(), x.y.end());
   rounding_ = kRounding * largest_ * std::max(*right - *left, *high - *low);
   // A shift that was needed a moment ago is tried a little smaller; most of the time none is.
-  double shift = std::max(kLeastShift, 1e-3 * shift_);
-  if (!try_with(shift) && convex) {
-    stiffness_.set_convex(true);
-    assemble(x);
-    try_with(shift = kLeastShift);
+  for (shift_ = std::max(kLeastShift, 1e-3 * shift_); shift_ <= kMostShift; shift_ *= 30) {
+    ++cost_.factorizations;
+    factored_ = factor_.factorize(stiffness_.values(), shift_ * largest_);
+    if (factored_) break;
   }
-  while (!factored_ && (shift *= 30) <= kMostShift) try_with(shift);
   factor_x_ = x;
   dropped_.assign(model_.sample.cells(), 0);
   pairs_.clear();
@@ -135,9 +126,9 @@ bool EquilibriumSolver::holds_lost(const Eigen::VectorXd& step) {
 // The factor is kept in single precision: where soft and stiff lie far apart, conjugate gradients bring the digits that it lacks.
 Eigen::VectorXd EquilibriumSolver::tangent_solution(const Eigen::VectorXd& f) {
   const int n = stiffness_.size();
-  const Eigen::Map<const Eigen::SparseMatrix<double>> lower(
-      n, n, static_cast<Eigen::Index>(stiffness_.values().size()), stiffness_.column_begin().data(),
-      stiffness_.rows().data(), stiffness_.values().data());
+  const Eigen::Map<const Eigen::SparseMatrix<double>> lower(n, n, static_cast<Eigen::Index>(stiffness_.values().size()),
+                                                            stiffness_.column_begin().data(), stiffness_.rows().data(),
+                                                            stiffness_.values().data());
   Eigen::VectorXd x = Eigen::VectorXd::Zero(n), left = f, z = factor_.solve(left), p = z;
   double energy = left.dot(z);
   ++cost_.solves;

@@ -105,7 +105,6 @@ std::vector<double> Bars::stored(const Field& x) const {
 
 // d2W/de2 = k t t^T + (T / l) n n^T, k = 0 while the bar flows.
 void Bars::add_stiffness(const Field& x, StiffnessSink& sink) const {
-  const bool convex = sink.convex();
   const auto add = [&](Index, Index i, Index j, Index slot, double length) {
     double k = stiffness_[slot], tension = k * (length - rest_length_[slot]);
     if (!yield_.empty()) {
@@ -113,7 +112,6 @@ void Bars::add_stiffness(const Field& x, StiffnessSink& sink) const {
       tension = returned(trial, yield_[slot]);
       if (std::abs(trial) > yield_[slot]) k = 0;
     }
-    if (convex) tension = std::max(0.0, tension);
     const Vec2 t = (x.at(j) - x.at(i)) / length, n = left_of(t);
     const Eigen::Matrix2d block = k * t * t.transpose() + (tension / length) * n * n.transpose();
     sink.add(i, i, block), sink.add(j, j, block);

@@ -31,7 +31,8 @@ class Bars final : public ShellTerm {
 
  private:
   template <class F>
-  void for_each_bar(const Field& x, F&& visit, StiffnessSink* sink = nullptr) const;  // visit(cell, node, next node, slot, length)
+  void for_each_bar(const Field& x, F&& visit,
+                    StiffnessSink* sink = nullptr) const;  // visit(cell, node, next node, slot, length)
 
   // padded layout
   std::vector<double> stiffness_;    // k_s [N/m]; 0 where no segment starts, or it has broken

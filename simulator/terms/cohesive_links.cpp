@@ -394,19 +394,7 @@ void CohesiveLinks::add_stiffness(const Field& x, StiffnessSink& sink) const {
 }
 
 void CohesiveLinks::add_stiffness_of(Index l, const Field& x, StiffnessSink& sink) const {
-  State s = state(x, l);
-  if (sink.convex()) make_convex(s);
-  add_stiffness_of(l, s, sink);
-}
-
-// What softens holds nothing, and what turns pushes nothing.
-void CohesiveLinks::make_convex(State& s) {
-  s.f_n = s.f_t = s.moment = 0;
-  const double mean = 0.5 * (s.k_nn + s.k_tt), half = 0.5 * (s.k_nn - s.k_tt), radius = std::hypot(half, s.k_nt);
-  if (mean >= radius) return;
-  // Of both eigenvalues, mean +- radius, what is positive.
-  const double left = std::max(0.0, mean + radius), share = radius > 0 ? 0.5 * left / radius : 0.0;
-  s.k_nn = 0.5 * left + share * half, s.k_tt = 0.5 * left - share * half, s.k_nt *= share;
+  add_stiffness_of(l, state(x, l), sink);
 }
 
 void CohesiveLinks::add_stiffness_of(Index l, const State& s, StiffnessSink& sink) const {

@@ -180,7 +180,6 @@ class CohesiveLinks final : public Term {
   void remove_stiffness(Index link);
   void take_out(const Field& x, Index link, Index at, LinkForces& forces, std::vector<Break>& breaks);
   void add_stiffness_of(Index link, const State& s, StiffnessSink& sink) const;
-  static void make_convex(State& s);
   // ---- links that soften: cohesive_links_damage.cpp ----
   ZoneLink zone_link(Index link) const;
   void respond(Index link, State& s) const;

@@ -123,11 +123,9 @@ std::vector<double> Hinges::stored(const Field& x) const {
 
 // theta = phi_2 - phi_1 with d(phi)/de = n / l and d2(phi)/de2 = -(t n^T + n t^T) / l^2.
 void Hinges::add_stiffness(const Field& x, StiffnessSink& sink) const {
-  const bool convex = sink.convex();
   const auto add = [&](Index, Index h, Index i, Index j, Index slot, double trial) {
     double k = stiffness_[slot], moment = trial;
     if (!yield_.empty() && std::abs(trial) > yield_[slot]) k = 0, moment = returned(trial, yield_[slot]);
-    if (convex) moment = 0;
     const Index node[3] = {h, i, j};
     Vec2 gradient[3] = {Vec2::Zero(), Vec2::Zero(), Vec2::Zero()};
     Eigen::Matrix2d hessian[2];

@@ -33,7 +33,8 @@ class Hinges final : public ShellTerm {
 
  private:
   template <class F>
-  void for_each_hinge(const Field& x, F&& visit, StiffnessSink* sink = nullptr) const;  // visit(cell, prev, node, next, slot, elastic trial moment)
+  void for_each_hinge(const Field& x, F&& visit, StiffnessSink* sink = nullptr)
+      const;  // visit(cell, prev, node, next, slot, elastic trial moment)
 
   // padded layout
   std::vector<double> stiffness_;   // k_b [N m]; 0 where there is no hinge

@@ -19,8 +19,6 @@ class StiffnessSink {
   /// Asked before each element, of which what follows is the stiffness: whether it is wanted at all. `cell`: one that it belongs to, the same
   /// every time (of links: that of node a).
   virtual bool begin_elements(Index /*cell*/) { return true; }
-  /// Whether what makes an element's stiffness indefinite is left out: what softens, and forces that push while their directions turn.
-  virtual bool convex() const { return false; }
 };
 
 class Term {
