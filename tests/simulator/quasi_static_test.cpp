@@ -2,6 +2,7 @@
 #include "simulator/steppers/quasi_static.h"
 
 #include <cmath>
+#include <random>
 
 #include "generator/sample/errors.h"
 #include "tests/simulator/static_rig.h"
@@ -95,6 +96,42 @@ double ledger_residual(double strength, double longest) {
   const StaticWorks& w = rig.stepper->works();
   EXPECT_EQ(w.fracture > 0 && w.released > 0, strength < 1e6);
   return std::abs(w.loads - rig.energy() - w.fracture - w.released) / w.loads;
+}
+
+/// A tissue of 10 x 8 hexagons whose lowest row is held, and whose highest goes up.
+StaticRig torn(const Sample& sample, double strength, double way) {
+  Stage stage;
+  stage.cells["cells"] = cell_scene(400.0, 0.5, 1.0);
+  stage.links["links"] = link_scene("length", 800.0, 300.0, strength);
+  std::vector<Index> low, high;
+  for (Index c = 0; c < 10; ++c) low.push_back(c), high.push_back(70 + c);
+  return StaticRig(sample, stage, {moving_cells(sample, low, Vec2(0, 0)), moving_cells(sample, high, Vec2(0, way))},
+                   {.residual = 1e-6});
+}
+
+TEST(QuasiStatic, a_factor_that_is_made_anew_in_part_tears_the_same_links_at_the_same_loads) {
+  Sample sample = hexagons(10, 8, 3, 0.05);
+  std::mt19937 random(3);  // one link in ten is missing, so that no two are alike
+  std::erase_if(sample.links, [&](const Link&) { return random() % 10 == 0; });
+  const auto tear = [&](bool all_anew) {
+    StaticRig rig = torn(sample, 20, 2.5);
+    while (rig.stepper->time() < 1 && rig.stepper->over().empty()) {
+      rig.stepper->load_towards(1, [] { return true; });
+      if (rig.stepper->critical()) rig.stepper->fall([] { return true; });
+      if (all_anew) rig.stepper->forget();
+    }
+    return std::pair{rig.stepper->take_breaks(), rig.stepper->solver().cost()};
+  };
+  const auto [breaks, cost] = tear(false);
+  const auto [oracle, whole] = tear(true);
+  EXPECT_GT(cost.partial_factorizations, cost.factorizations);
+  EXPECT_GT(whole.factorizations, 3 * cost.factorizations);
+  ASSERT_EQ(breaks.size(), oracle.size());
+  ASSERT_GT(breaks.size(), 60u);
+  for (std::size_t k = 0; k < breaks.size(); ++k) {
+    EXPECT_EQ(breaks[k].link.link, oracle[k].link.link);
+    EXPECT_NEAR(breaks[k].time, oracle[k].time, 1e-3);
+  }
 }
 
 TEST(QuasiStatic, the_ledger_closes_to_second_order_in_the_load_step) {
