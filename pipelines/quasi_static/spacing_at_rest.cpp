@@ -106,7 +106,7 @@ void spacing(StudyBench& bench) {
                                           fmt::format("links.normal_stiffness={}", links.k_n),
                                           fmt::format("links.tangential_stiffness={}", 0.3 * links.k_n),
                                           "stop.stress_drop=0.7",
-                                          "run.load_steps=600"};
+                                          fmt::format("run.load_steps={}", links.softens ? 1200 : 600)};
         if (links.softens) settings.insert(settings.end(), {"links.law=\"cohesive_zone\"", "links.toughness=0.0256"});
         const StudyRun run = bench.attempt(fmt::format("spacing_{}_{:g}_{}_{}", links.softens, links.k_n, m, k + 1),
                                            "tissue.toml", settings);

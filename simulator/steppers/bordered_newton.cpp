@@ -43,6 +43,7 @@ bool EquilibriumSolver::bordered_step(const Field& x, const Eigen::VectorXd& f, 
 
 bool EquilibriumSolver::holds_at(const Field& x) {
   shift_ = 0;
+  loose_.setZero();
   refactor(x);
   const bool stable = factored_ && is_minimum();
   factored_ = false;

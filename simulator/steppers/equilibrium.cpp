@@ -196,6 +196,7 @@ bool EquilibriumSolver::rush(Field& x, double tolerance) {
 bool EquilibriumSolver::leave_saddle(Field& x, double height) {
   if (free_.size() == 0) return false;
   shift_ = 0;
+  loose_.setZero();
   refactor(x);
   if (!factored_ || is_minimum()) return false;
   Eigen::VectorXd v(free_.size());

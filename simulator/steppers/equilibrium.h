@@ -79,8 +79,9 @@ class EquilibriumSolver {
   bool refactor_turned(const Field& x);
   std::vector<std::uint8_t> turned_cells(const Field& x) const;
   bool holds_lost(const Eigen::VectorXd& step);
-  /// Of a rest at which the factor was just made: a larger shift than rounding asks for is one over a saddle.
-  bool is_minimum() const { return shift_ <= 1e-9; }
+  /// Of a rest at which the factor was just made: a larger shift than rounding asks for is one over a saddle, and where there may be saddles
+  /// what is held as loose may hide one.
+  bool is_minimum() const { return shift_ <= 1e-9 && (!barriers_ || loose_.isZero(0)); }
   bool rush(Field& x, double tolerance);
   bool leave_saddle(Field& x, double height);
   Eigen::VectorXd tangent_solution(const Eigen::VectorXd& f);
