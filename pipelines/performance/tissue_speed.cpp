@@ -99,8 +99,8 @@ void time_at_rest(const Tissue& tissue, const std::filesystem::path& folder) {
              tissue.sample.links.size());
   fmt::print("breaks {}\npeak_stress {:.9g}\nwork {:.9g}\nprocessor_seconds {:.6g}\n", reader.events().size(), peak,
              response.rows.back().at(column("work")), seconds);
-  fmt::print("equilibria {}\niterations {}\nfactorisations {}\nin_part {}\npeak_megabytes {:.1f}\n", cost.searches, cost.iterations,
-             cost.factorizations, cost.partial_factorizations, peak_megabytes());
+  fmt::print("equilibria {}\niterations {}\nfactorisations {}\nin_part {}\npeak_megabytes {:.1f}\n", cost.searches,
+             cost.iterations, cost.factorizations, cost.partial_factorizations, peak_megabytes());
   fmt::print("ended {}\n", facts.ended);
 }
 
