@@ -43,7 +43,7 @@ class StiffnessMatrix final : public StiffnessSink {
 
   /// Sums what `visit` adds, in place of what was there. Returns true if the pattern is another one than before.
   bool assemble(const std::function<void(StiffnessSink&)>& visit);
-  /// The same for the elements of some cells (not 0); what others have added stays. Returns false where the pattern has no room for it: then
+  /// The same for the elements of some cells (not 0); what others have added stays, and what belongs to none, added before all of them. Returns false where the pattern has no room for it: then
   /// all must be assembled.
   bool reassemble(const std::vector<std::uint8_t>& cells, const std::function<void(StiffnessSink&)>& visit);
   void add(Index i, Index j, const Eigen::Matrix2d& block) override;

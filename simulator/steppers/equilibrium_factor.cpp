@@ -44,8 +44,8 @@ void EquilibriumSolver::couple_anchors(StiffnessSink& sink) const {
 
 void EquilibriumSolver::assemble(const Field& x) {
   const bool changed = stiffness_.assemble([&](StiffnessSink& sink) {
+    couple_anchors(sink);  // before all elements: it belongs to none
     for (const Term* term : model_.terms()) term->add_stiffness(x, sink);
-    couple_anchors(sink);
   });
   largest_ = stiffness_.largest_diagonal();
   for (Index i = 0; i < static_cast<Index>(anchor_stiffness_.size()); ++i)

@@ -16,8 +16,8 @@ class StiffnessSink {
  public:
   virtual ~StiffnessSink() = default;
   virtual void add(Index i, Index j, const Eigen::Matrix2d& block) = 0;
-  /// Asked before each element, of which what follows is the stiffness: whether it is wanted at all. `cell`: one that it belongs to, the same
-  /// every time (of links: that of node a).
+  /// What follows, up to the next call, is the stiffness of elements of this cell (of a link: the cell of its node a; each element always belongs to
+  /// the same one). Returns whether it is wanted; if not, it is left out.
   virtual bool begin_elements(Index /*cell*/) { return true; }
 };
 

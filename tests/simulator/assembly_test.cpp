@@ -123,6 +123,24 @@ TEST(Assembly, of_some_cells_anew_leaves_what_the_others_have_added) {
   EXPECT_LT((Eigen::MatrixXd(k.full()) - tissue.dense(free)).cwiseAbs().maxCoeff(), rounding);
 }
 
+TEST(Assembly, of_all_cells_anew_leaves_what_belongs_to_none) {
+  const HeldTissue tissue;
+  const FreeComponents free(tissue.sample.nodes(), tissue.loads);
+  StiffnessMatrix k(free, tissue.sample.cells());
+  const Eigen::Matrix2d block = (Eigen::Matrix2d() << 1, 2, 2, 5).finished();
+  const auto elements = [&](StiffnessSink& sink) {
+    for (const Term* term : tissue.model->terms()) term->add_stiffness(tissue.x, sink);
+  };
+  k.assemble([&](StiffnessSink& sink) { sink.add(50, 50, block), elements(sink); });
+  k.add_to_diagonal(free.row(60, 1), 7);
+  ASSERT_TRUE(k.reassemble(std::vector<std::uint8_t>(tissue.sample.cells(), 1), elements));
+  Eigen::MatrixXd expected = tissue.dense(free);
+  const double rounding = 1e-12 * expected.cwiseAbs().maxCoeff();
+  expected.block<2, 2>(free.row(50, 0), free.row(50, 0)) += block;
+  expected(free.row(60, 1), free.row(60, 1)) += 7;
+  EXPECT_LT((Eigen::MatrixXd(k.full()) - expected).cwiseAbs().maxCoeff(), rounding);
+}
+
 TEST(Assembly, gathers_and_moves_free_components_alone) {
   const HeldTissue tissue;
   const FreeComponents free(tissue.sample.nodes(), tissue.loads);
