@@ -159,9 +159,7 @@ double StiffnessMatrix::largest_diagonal() const {
 
 Eigen::SparseMatrix<double> assembled_stiffness(const Model& model, const FreeComponents& free, const Field& x) {
   StiffnessMatrix k(free);
-  k.assemble([&](StiffnessSink& sink) {
-    for (const Term* term : model.terms()) term->add_stiffness(x, sink);
-  });
+  k.assemble([&](StiffnessSink& sink) { model.add_stiffness(x, sink); });
   return k.full();
 }
 

@@ -373,6 +373,10 @@ double Model::energy(const Field& x) const {
   return sum;
 }
 
+void Model::add_stiffness(const Field& x, StiffnessSink& sink) const {
+  for (const Term* term : terms()) term->add_stiffness(x, sink);
+}
+
 bool Model::yields() const {
   const auto list = shell_terms();
   return std::any_of(list.begin(), list.end(), [](const ShellTerm* term) { return term->plastic(); });

@@ -53,6 +53,8 @@ struct Model {
   std::vector<ShellTerm*> shell_terms() const;
   /// Of all terms at x [J].
   double energy(const Field& x) const;
+  /// Of all terms at x [N/m]; see Term.
+  void add_stiffness(const Field& x, StiffnessSink& sink) const;
   /// Whether any wall can flow; what that has dissipated so far [J].
   bool yields() const;
   double plastic_dissipated() const;

@@ -173,8 +173,7 @@ std::string StaticStage::run(TrajectoryWriter& writer, const SimulateOptions& op
     const SolverCost& c = facts.static_cost = stepper_->solver().cost();
     const std::string line = fmt::format(
         "{} equilibria by {} iterations: {} force evaluations, {} solutions, {} factorisations and {} in part, {} "
-        "links taken out of "
-        "a factor",
+        "links taken out of a factor",
         c.searches, c.iterations, c.forces, c.solves, c.factorizations, c.partial_factorizations, c.updates);
     writer.set_provenance(prefix() + "solver_cost", line);
     if (stepper_->falls() > 0)

@@ -45,7 +45,7 @@ void EquilibriumSolver::couple_anchors(StiffnessSink& sink) const {
 void EquilibriumSolver::assemble(const Field& x) {
   const bool changed = stiffness_.assemble([&](StiffnessSink& sink) {
     couple_anchors(sink);  // before all elements: it belongs to none
-    for (const Term* term : model_.terms()) term->add_stiffness(x, sink);
+    model_.add_stiffness(x, sink);
   });
   largest_ = stiffness_.largest_diagonal();
   for (Index i = 0; i < static_cast<Index>(anchor_stiffness_.size()); ++i)
@@ -99,9 +99,7 @@ bool EquilibriumSolver::refactor_turned(const Field& x) {
   for (Index c = 0; c < sample.cells(); ++c)
     if (turned[c]) nodes += sample.cell_size(c);
   if (nodes == 0 || nodes > kMostTurned * sample.nodes()) return false;
-  factored_ = stiffness_.reassemble(turned, [&](StiffnessSink& sink) {
-    for (const Term* term : model_.terms()) term->add_stiffness(x, sink);
-  });
+  factored_ = stiffness_.reassemble(turned, [&](StiffnessSink& sink) { model_.add_stiffness(x, sink); });
   if (!factored_) return false;
   ++cost_.partial_factorizations;
   factored_ = factor_.refactorize(stiffness_.values(), shift_ * largest_, stiffness_.changed_rows());

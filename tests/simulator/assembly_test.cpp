@@ -32,9 +32,7 @@ struct HeldTissue {
     return k;
   }
   bool assemble(StiffnessMatrix& k) const {
-    return k.assemble([&](StiffnessSink& sink) {
-      for (const Term* term : model->terms()) term->add_stiffness(x, sink);
-    });
+    return k.assemble([&](StiffnessSink& sink) { model->add_stiffness(x, sink); });
   }
 
   Sample sample;
@@ -64,7 +62,7 @@ TEST(Assembly, takes_blocks_that_were_not_there_before) {
   const Eigen::Matrix2d block = (Eigen::Matrix2d() << 1, 2, 3, 4).finished();
   const Eigen::MatrixXd before(k.lower());
   EXPECT_TRUE(k.assemble([&](StiffnessSink& sink) {
-    for (const Term* term : tissue.model->terms()) term->add_stiffness(tissue.x, sink);
+    tissue.model->add_stiffness(tissue.x, sink);
     sink.add(5, 40, block), sink.add(40, 5, block.transpose());
   }));
   const Eigen::MatrixXd more = Eigen::MatrixXd(k.lower()) - before;
@@ -94,9 +92,7 @@ TEST(Assembly, of_some_cells_anew_leaves_what_the_others_have_added) {
   const std::vector<std::uint8_t> cells{1, 0, 0, 1, 0, 1};
   ASSERT_EQ(tissue.sample.cells(), static_cast<Index>(cells.size()));
   const auto visit_at = [&](const Field& x) {
-    return [&](StiffnessSink& sink) {
-      for (const Term* term : tissue.model->terms()) term->add_stiffness(x, sink);
-    };
+    return [&](StiffnessSink& sink) { tissue.model->add_stiffness(x, sink); };
   };
   // What contacts add may lie elsewhere now: then all is assembled, once.
   if (!k.reassemble(cells, visit_at(now))) {
@@ -128,9 +124,7 @@ TEST(Assembly, of_all_cells_anew_leaves_what_belongs_to_none) {
   const FreeComponents free(tissue.sample.nodes(), tissue.loads);
   StiffnessMatrix k(free, tissue.sample.cells());
   const Eigen::Matrix2d block = (Eigen::Matrix2d() << 1, 2, 2, 5).finished();
-  const auto elements = [&](StiffnessSink& sink) {
-    for (const Term* term : tissue.model->terms()) term->add_stiffness(tissue.x, sink);
-  };
+  const auto elements = [&](StiffnessSink& sink) { tissue.model->add_stiffness(tissue.x, sink); };
   k.assemble([&](StiffnessSink& sink) { sink.add(50, 50, block), elements(sink); });
   k.add_to_diagonal(free.row(60, 1), 7);
   ASSERT_TRUE(k.reassemble(std::vector<std::uint8_t>(tissue.sample.cells(), 1), elements));

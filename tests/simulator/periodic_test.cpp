@@ -10,6 +10,7 @@
 #include "simulator/steppers/quasi_static.h"
 #include "simulator/steppers/stable_time_step.h"
 #include "simulator/stop_conditions.h"
+#include "tests/simulator/static_rig.h"
 #include "tests/simulator/tissues.h"
 
 #include <gtest/gtest.h>
@@ -206,38 +207,14 @@ TEST(PeriodicSample, that_drifts_through_its_sides_swings_as_one_that_does_not) 
   EXPECT_LT(largest_difference(still, drifting), 1e-9);
 }
 
-/// At rest under loads of a time of 1.
-struct AtRest {
-  AtRest(const Sample& s, std::optional<double> strength, std::vector<Load> l)
-      : stage(timed(strength)), model(build_model(s, stage, field_of(s.x))), loads(std::move(l)), path(stage, {}) {
-    QuasiStaticSettings settings;
-    settings.longest = 0.02;
-    settings.residual = 1e-9;
-    stepper.emplace(*model, loads, path, field_of(s.x), 0.0, settings);
-    stepper->settle();
-  }
-  static Stage timed(std::optional<double> strength) {
-    Stage out = stage_of(strength);
-    out.stop.time = 1;
-    return out;
-  }
-  void run(double until) {
-    while (stepper->time() < until && stepper->over().empty()) {
-      stepper->load_towards(until, [] { return true; });
-      if (stepper->critical()) stepper->fall([] { return true; });
-    }
-  }
-  Stage stage;
-  std::unique_ptr<Model> model;
-  std::vector<Load> loads;
-  LoadPath path;
-  std::optional<QuasiStatic> stepper;
-};
+StaticRig at_rest(const Sample& s, std::optional<double> strength, std::vector<Load> loads) {
+  return {s, stage_of(strength), std::move(loads), {.residual = 1e-9, .longest = 0.02}};
+}
 
 TEST(PeriodicSample, at_rest_takes_the_same_stress_with_more_periods_and_other_homes) {
   const auto stress = [](const Sample& s) {
-    AtRest rig(s, {}, pulled(s, 0.2));
-    rig.run(1);
+    StaticRig rig = at_rest(s, {}, pulled(s, 0.2));
+    rig.run();
     EXPECT_EQ(rig.stepper->over(), "");
     return rig.stepper->load_forces()[1].y() / s.box.size().x();
   };
@@ -252,8 +229,8 @@ TEST(PeriodicSample, at_rest_takes_the_same_stress_with_more_periods_and_other_h
 TEST(PeriodicSample, at_rest_needs_nothing_to_hold_it_across_the_pull) {
   const Sample s = strip();
   const auto force = [&](bool holds_x) {
-    AtRest rig(s, {}, pulled(s, 0.2, holds_x));
-    rig.run(1);
+    StaticRig rig = at_rest(s, {}, pulled(s, 0.2, holds_x));
+    rig.run();
     EXPECT_EQ(rig.stepper->over(), "");
     // It stays where it is: nothing pushes it along x.
     double mean = 0;
@@ -267,8 +244,8 @@ TEST(PeriodicSample, at_rest_needs_nothing_to_hold_it_across_the_pull) {
 
 TEST(PeriodicSample, at_rest_is_torn_from_side_to_side) {
   const Sample s = strip();
-  AtRest rig(s, 6.0, pulled(s, 2));
-  rig.run(1);
+  StaticRig rig = at_rest(s, 6.0, pulled(s, 2));
+  rig.run();
   const std::vector<Index> part = parts_of(*rig.model);
   std::set<Index> low;
   for (Index i : rig.loads[0].nodes) low.insert(part[i]);
